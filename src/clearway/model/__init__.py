@@ -1,0 +1,46 @@
+"""The nouns: frozen data, checked when built."""
+
+from clearway.model.clock import TICKS_PER_SECOND, to_seconds, to_ticks
+from clearway.model.footprint import Footprint, Point, Polygon
+from clearway.model.plan import Assignment, Plan, Status
+from clearway.model.pose import Pose, wrap
+from clearway.model.problem import Problem, RobotState
+from clearway.model.record import PlanRecord, Track
+from clearway.model.robot import FOUR_WHEEL_MODES, Battery, Limits, Robot, RobotType
+from clearway.model.scenario import Scenario
+from clearway.model.site import Obstacle, Site, Zone
+from clearway.model.task import Order, Task, Visit
+from clearway.model.trajectory import Piece, Stop, Trajectory
+
+__all__ = [
+    "FOUR_WHEEL_MODES",
+    "TICKS_PER_SECOND",
+    "Assignment",
+    "Battery",
+    "Footprint",
+    "Limits",
+    "Obstacle",
+    "Order",
+    "Piece",
+    "Plan",
+    "PlanRecord",
+    "Point",
+    "Polygon",
+    "Pose",
+    "Problem",
+    "Robot",
+    "RobotState",
+    "RobotType",
+    "Scenario",
+    "Site",
+    "Status",
+    "Stop",
+    "Task",
+    "Track",
+    "Trajectory",
+    "Visit",
+    "Zone",
+    "to_seconds",
+    "to_ticks",
+    "wrap",
+]

@@ -1,0 +1,116 @@
+"""Trajectories: pieces of path, their timing, and the visits made on the way."""
+
+import math
+from dataclasses import dataclass
+
+from clearway.model.pose import Pose, wrap
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A motion of constant body-frame direction and curvature.
+
+    Parameters
+    ----------
+    id
+        Stable within its trajectory; a retimed trajectory keeps it.
+    mode
+        Name of the motion mode; ``None`` where the robot has no modes.
+    start
+        Pose where it begins.
+    twist
+        Whole body-frame displacement ``(along x, along y, turn)`` in m, m, rad, applied
+        evenly: the pose at progress ``p`` is ``start`` moved by ``exp(p * twist)``.
+    loaded
+        Whether the robot carries a load meanwhile.
+    """
+
+    id: int
+    mode: str | None
+    start: Pose
+    twist: tuple[float, float, float]
+    loaded: bool = False
+
+    @property
+    def length(self) -> float:
+        """Path length of the reference point (m)."""
+        return math.hypot(self.twist[0], self.twist[1])
+
+    def at(self, progress: float) -> Pose:
+        """Return the pose at ``progress`` in [0, 1]."""
+        a, b, c = (progress * value for value in self.twist)
+        if abs(c) < 1e-9:
+            local = Pose(a - 0.5 * b * c, b + 0.5 * a * c, c)
+        else:
+            s, v = math.sin(c) / c, (1.0 - math.cos(c)) / c
+            local = Pose(a * s - b * v, a * v + b * s, c)
+        return self.start.compose(local)
+
+    @property
+    def end(self) -> Pose:
+        """Pose where it ends."""
+        return self.at(1.0)
+
+    def heading_at(self, progress: float) -> float:
+        """Return the heading (rad) at ``progress``."""
+        return wrap(self.start.theta + progress * self.twist[2])
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A visit in time: index into the robot's visits, ticks of arrival and of leaving."""
+
+    visit: int
+    arrive: int
+    leave: int
+
+    def __post_init__(self) -> None:
+        if self.leave < self.arrive:
+            raise ValueError(f"visit {self.visit} ends before it begins")
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """One robot's motion from its start to its final rest.
+
+    Parameters
+    ----------
+    start
+        Pose at tick 0.
+    pieces
+        Path in order; each begins where the one before ended.
+    timing
+        ``(first tick, last tick)`` of each piece; between pieces the robot stands.
+    stops
+        Visits made, in order.
+    """
+
+    robot: str
+    start: Pose
+    pieces: tuple[Piece, ...] = ()
+    timing: tuple[tuple[int, int], ...] = ()
+    stops: tuple[Stop, ...] = ()
+
+    def __post_init__(self) -> None:
+        if len(self.pieces) != len(self.timing):
+            raise ValueError(f"trajectory of {self.robot}: one timing per piece is needed")
+        last = 0
+        for first, end in self.timing:
+            if first < last or end <= first:
+                raise ValueError(f"trajectory of {self.robot}: pieces overlap in time")
+            last = end
+
+    @property
+    def end(self) -> int:
+        """Tick at which the final rest begins."""
+        return self.timing[-1][1] if self.timing else 0
+
+    @property
+    def final_pose(self) -> Pose:
+        """Pose of the final rest."""
+        return self.pieces[-1].end if self.pieces else self.start
+
+    @property
+    def distance(self) -> float:
+        """Length driven (m)."""
+        return sum(piece.length for piece in self.pieces)
