@@ -1,0 +1,13 @@
+// One function per header that is bound.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace clearway::bindings {
+
+void bind_body(nanobind::module_& m);
+void bind_statics(nanobind::module_& m);
+void bind_motion(nanobind::module_& m);
+void bind_prioritised(nanobind::module_& m);
+
+}  // namespace clearway::bindings

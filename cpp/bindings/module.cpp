@@ -1,0 +1,9 @@
+#include "bind.hpp"
+
+NB_MODULE(_core, m) {
+  m.doc() = "Native search core: geometry, motion tables, space, search, multi-robot search.";
+  clearway::bindings::bind_body(m);
+  clearway::bindings::bind_statics(m);
+  clearway::bindings::bind_motion(m);
+  clearway::bindings::bind_prioritised(m);
+}

@@ -1,0 +1,151 @@
+#include "clearway/multi/prioritised.hpp"
+
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+#include <optional>
+
+#include "bind.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+namespace clearway::bindings {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using ProgressCall = std::function<void(int, int, std::int64_t)>;
+
+struct TeamAnswer {
+  TeamResult result;
+  bool interrupted = false;
+};
+
+TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents,
+                     const TeamParams& params, std::uint32_t seed, std::int64_t expansions,
+                     std::optional<double> seconds, std::optional<ProgressCall> progress) {
+  TeamAnswer answer;
+  const Clock::time_point begin = Clock::now();
+  Budget budget;
+  budget.expansions = expansions;
+  budget.stop = [&] {
+    if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds) {
+      return true;
+    }
+    nb::gil_scoped_acquire gil;
+    if (PyErr_CheckSignals() == 0) return false;
+    PyErr_Clear();
+    answer.interrupted = true;
+    return true;
+  };
+  Clock::time_point told = begin;
+  PrioritisedPlanner::Progress tell;
+  if (progress) {
+    tell = [&](int planned, int total, std::int64_t spent) {
+      if (Clock::now() - told < std::chrono::milliseconds(200)) return;
+      told = Clock::now();
+      nb::gil_scoped_acquire gil;
+      (*progress)(planned, total, spent);
+    };
+  }
+  nb::gil_scoped_release release;
+  PrioritisedPlanner planner(models, std::move(agents), params, std::move(tell));
+  answer.result = planner(seed, budget);
+  return answer;
+}
+
+}  // namespace
+
+void bind_prioritised(nb::module_& m) {
+  nb::class_<TimedPiece>(m, "TimedPiece", "A stretch of a trajectory.")
+      .def(
+          "__init__",
+          [](TimedPiece* self, Ticks begin, Ticks end, const Pose& start, const Twist& twist,
+             int mode, int body) { new (self) TimedPiece{begin, end, start, twist, mode, body}; },
+          "begin"_a, "end"_a, "start"_a, "twist"_a, "mode"_a, "body"_a)
+      .def_ro("begin", &TimedPiece::begin)
+      .def_ro("end", &TimedPiece::end)
+      .def_ro("start", &TimedPiece::start)
+      .def_ro("twist", &TimedPiece::twist)
+      .def_ro("mode", &TimedPiece::mode)
+      .def_ro("body", &TimedPiece::body);
+  nb::class_<Leg>(m, "Leg", "Drive to a goal, then stand there.")
+      .def(
+          "__init__",
+          [](Leg* self, const Pose& goal, Ticks service, int body) {
+            new (self) Leg{goal, service, body, 0.0};
+          },
+          "goal"_a, "service"_a, "body"_a);
+  nb::class_<Model>(m, "Model", "What all robots of one type share.")
+      .def(
+          "__init__",
+          [](Model* self, std::vector<Body> bodies, std::vector<std::shared_ptr<Statics>> statics,
+             MotionTable table, MotionTable fine, double clearance) {
+            new (self) Model{std::move(bodies),
+                             {statics.begin(), statics.end()},
+                             std::move(table),
+                             std::move(fine),
+                             clearance};
+          },
+          "bodies"_a, "statics"_a, "table"_a, "fine"_a, "clearance"_a);
+  nb::class_<Agent>(m, "Agent", "A robot of the team.")
+      .def(nb::init<>())
+      .def_rw("model", &Agent::model)
+      .def_rw("start", &Agent::start)
+      .def_rw("mode", &Agent::mode)
+      .def_rw("ready", &Agent::ready)
+      .def_rw("committed", &Agent::committed)
+      .def_rw("legs", &Agent::legs)
+      .def_rw("fixed", &Agent::fixed);
+  nb::class_<SearchParams>(m, "SearchParams", "Parameters of the single-robot search.")
+      .def(nb::init<>())
+      .def_rw("weight", &SearchParams::weight)
+      .def_rw("soft_weight", &SearchParams::soft_weight)
+      .def_rw("cell", &SearchParams::cell)
+      .def_rw("shot_words", &SearchParams::shot_words);
+  nb::class_<TeamParams>(m, "TeamParams", "Parameters of prioritised planning.")
+      .def(nb::init<>())
+      .def_rw("search", &TeamParams::search)
+      .def_rw("objective", &TeamParams::objective)
+      .def_rw("margin", &TeamParams::margin)
+      .def_rw("first_penalty", &TeamParams::first_penalty)
+      .def_rw("penalty_growth", &TeamParams::penalty_growth)
+      .def_rw("first_hold", &TeamParams::first_hold)
+      .def_rw("last_hold", &TeamParams::last_hold)
+      .def_rw("jitter", &TeamParams::jitter)
+      .def_rw("hard_limit", &TeamParams::hard_limit)
+      .def_rw("soft_limit", &TeamParams::soft_limit)
+      .def_rw("alone_limit", &TeamParams::alone_limit)
+      .def_rw("restarts", &TeamParams::restarts);
+  nb::class_<TourStop>(m, "TourStop", "A visit made: its leg, ticks of arrival and leaving.")
+      .def_ro("leg", &TourStop::leg)
+      .def_ro("arrive", &TourStop::arrive)
+      .def_ro("leave", &TourStop::leave);
+  nb::class_<TourResult>(m, "TourResult", "One robot's way through its visits.")
+      .def_ro("pieces", &TourResult::pieces)
+      .def_ro("stops", &TourResult::stops);
+  nb::enum_<TeamResult::Status>(m, "TeamStatus", "How prioritised planning ended.")
+      .value("SOLVED", TeamResult::Status::kSolved)
+      .value("STOPPED", TeamResult::Status::kStopped)
+      .value("STUCK", TeamResult::Status::kStuck);
+  nb::class_<TeamAnswer>(m, "TeamAnswer", "What planning a team came to.")
+      .def_prop_ro("status", [](const TeamAnswer& a) { return a.result.status; })
+      .def_prop_ro("tours", [](const TeamAnswer& a) { return a.result.tours; })
+      .def_prop_ro("planned", [](const TeamAnswer& a) { return a.result.planned; })
+      .def_prop_ro("concerned", [](const TeamAnswer& a) { return a.result.concerned; })
+      .def_prop_ro("expansions", [](const TeamAnswer& a) { return a.result.expansions; })
+      .def_prop_ro("searches", [](const TeamAnswer& a) { return a.result.searches; })
+      .def_prop_ro("rip_ups", [](const TeamAnswer& a) { return a.result.rip_ups; })
+      .def_prop_ro("restarts", [](const TeamAnswer& a) { return a.result.restarts; })
+      .def_ro("interrupted", &TeamAnswer::interrupted);
+  m.def("plan_team", &plan_team, "models"_a, "agents"_a, "params"_a, "seed"_a,
+        "expansions"_a = -1, "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
+        "Plan a team one after another; an interrupt or the budget ends it with what there is.");
+}
+
+}  // namespace clearway::bindings

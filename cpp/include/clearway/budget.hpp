@@ -1,0 +1,26 @@
+// How much effort a search may spend.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace clearway {
+
+// Counted in expansions; `stop` is asked now and then and ends the search when it says true.
+struct Budget {
+  std::int64_t expansions = -1;  // negative: unlimited
+  std::function<bool()> stop;
+  std::int64_t spent = 0;
+  bool ended = false;
+
+  // Counts one expansion; false when the effort is used up or a stop was asked for.
+  bool spend() {
+    if (ended) return false;
+    ++spent;
+    if (expansions >= 0 && spent > expansions) ended = true;
+    if ((spent & 511) == 0 && stop && stop()) ended = true;
+    return !ended;
+  }
+};
+
+}  // namespace clearway

@@ -1,0 +1,72 @@
+// A robot's body: convex parts or a disc, with exact gaps to other bodies and to obstacles.
+#pragma once
+
+#include <vector>
+
+#include "clearway/geometry/pose.hpp"
+
+namespace clearway {
+
+struct Circle {
+  double x = 0.0, y = 0.0, r = 0.0;
+};
+
+struct Segment {
+  Point p, q;
+};
+
+// Convex polygon, counter-clockwise, with its outward edge normals and their offsets.
+class Convex {
+ public:
+  explicit Convex(std::vector<Point> vertices);
+
+  const std::vector<Point>& vertices() const { return vertices_; }
+
+  // Gap to a point: exact, negative inside (depth to the nearest edge).
+  double gap(Point p) const;
+
+  // Gap to a segment: exact depth when it cuts, never more than the distance when clear.
+  double gap(const Segment& s) const;
+
+  // Largest separation along this polygon's normals of points given in its frame.
+  double separation(const Point* points, std::size_t count, double enough) const;
+
+ private:
+  std::vector<Point> vertices_;
+  std::vector<Point> normals_;
+  std::vector<double> offsets_;
+};
+
+class Body {
+ public:
+  // Convex parts in the body frame; none for a disc of the given radius.
+  Body(const std::vector<std::vector<Point>>& parts, double disc_radius);
+
+  const std::vector<Convex>& parts() const { return parts_; }
+  double disc() const { return disc_; }
+
+  // Radius about the reference point that holds the whole body.
+  double circumradius() const { return circumradius_; }
+  // Radius about the reference point that the body covers; 0 if the point lies outside.
+  double inradius() const { return inradius_; }
+  // Circles that together cover the body.
+  const std::vector<Circle>& cover() const { return cover_; }
+
+ private:
+  std::vector<Convex> parts_;
+  double disc_ = 0.0;
+  double circumradius_ = 0.0;
+  double inradius_ = 0.0;
+  std::vector<Circle> cover_;
+};
+
+// Signed gap between two placed bodies: exact depth when they overlap, a lower bound of the
+// distance (equal to it except corner against corner) when they do not. Anything at or above
+// `enough` may be returned as soon as it is known.
+double gap(const Body& a, const Frame& fa, const Body& b, const Frame& fb, double enough);
+
+// Signed gap between a placed body and a segment or a disc, likewise.
+double gap(const Body& body, const Frame& f, const Segment& s);
+double gap(const Body& body, const Frame& f, const Circle& disc);
+
+}  // namespace clearway

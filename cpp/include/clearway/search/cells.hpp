@@ -1,0 +1,94 @@
+// Which safe intervals have been expanded where: the closed list of interval search.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "clearway/motion/table.hpp"
+
+namespace clearway {
+
+// Reached at `begin` for `cost`; whoever comes until `end` could have waited here instead.
+struct Interval {
+  Ticks begin = 0, end = 0;
+  double cost = 0.0;
+};
+
+// Open-addressed map from (cell, heading, leg, mode class) to intervals.
+class Cells {
+ public:
+  // `cell` (m); `waiting`: cost of a tick of waiting.
+  Cells(double cell, double waiting) : inverse_(1.0 / cell), waiting_(waiting) {
+    slots_.assign(1U << 14, Slot{});
+  }
+
+  // Whether mode tells states apart (it does where a switch costs something).
+  void distinguish_modes(bool yes) { by_mode_ = yes; }
+
+  // An interval that makes arriving at t for `cost` (plus waiting) pointless, or null.
+  const Interval* covering(double x, double y, int k, int leg, int mode, Ticks t, double cost,
+                           Ticks waited) const {
+    const Slot& slot = slots_[find(key(x, y, k, leg, mode))];
+    const double total = cost + waiting_ * waited;
+    for (std::int32_t i = slot.head; i >= 0; i = entries_[static_cast<std::size_t>(i)].next) {
+      const Interval& seen = entries_[static_cast<std::size_t>(i)].interval;
+      if (seen.begin <= t && t <= seen.end && seen.cost + waiting_ * (t - seen.begin) <= total + 1e-9) {
+        return &seen;
+      }
+    }
+    return nullptr;
+  }
+
+  void add(double x, double y, int k, int leg, int mode, const Interval& interval) {
+    if (4 * (used_ + 1) > 3 * slots_.size()) grow();
+    const std::uint64_t wanted = key(x, y, k, leg, mode);
+    Slot& slot = slots_[find(wanted)];
+    if (slot.head < 0) {
+      slot.key = wanted;
+      ++used_;
+    }
+    entries_.push_back({interval, slot.head});
+    slot.head = static_cast<std::int32_t>(entries_.size()) - 1;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::int32_t head = -1;
+  };
+  struct Entry {
+    Interval interval;
+    std::int32_t next;
+  };
+
+  std::uint64_t key(double x, double y, int k, int leg, int mode) const {
+    const auto ix = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x * inverse_)) & 0xFFFFF);
+    const auto iy = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y * inverse_)) & 0xFFFFF);
+    const auto m = static_cast<std::uint64_t>(by_mode_ ? mode + 1 : 0);
+    return ix | iy << 20 | static_cast<std::uint64_t>(k) << 40 | static_cast<std::uint64_t>(leg) << 48 |
+           m << 56;
+  }
+  std::size_t find(std::uint64_t wanted) const {
+    std::uint64_t h = wanted * 0x9E3779B97F4A7C15ULL;
+    h ^= h >> 32;
+    std::size_t i = h & (slots_.size() - 1);
+    while (slots_[i].head >= 0 && slots_[i].key != wanted) i = (i + 1) & (slots_.size() - 1);
+    return i;
+  }
+  void grow() {
+    std::vector<Slot> old(slots_.size() * 2);
+    old.swap(slots_);
+    for (const Slot& slot : old) {
+      if (slot.head >= 0) slots_[find(slot.key)] = slot;
+    }
+  }
+
+  double inverse_, waiting_;
+  bool by_mode_ = false;
+  std::size_t used_ = 0;
+  std::vector<Slot> slots_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,93 @@
+// One robot's way through all its visits: A* over (pose, mode, safe interval).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <tuple>
+#include <vector>
+
+#include "clearway/budget.hpp"
+#include "clearway/motion/table.hpp"
+#include "clearway/search/goal_distance.hpp"
+#include "clearway/search/heading_table.hpp"
+#include "clearway/space/statics.hpp"
+#include "clearway/space/traffic.hpp"
+
+namespace clearway {
+
+// What all robots of one type share.
+struct Model {
+  std::vector<Body> bodies;                              // 0 empty, 1 loaded
+  std::vector<std::shared_ptr<const Statics>> statics;   // what stands in each body's way
+  MotionTable table;
+  MotionTable fine;                                      // for the retry of a stuck robot
+  double clearance = 0.0;
+};
+
+// Drive to `goal` with `body`, then stand there for `service`.
+struct Leg {
+  Pose goal;
+  Ticks service = 0;
+  int body = 0;
+  double required = 0.0;  // gap to keep from obstacles on the way
+};
+
+struct SearchParams {
+  double weight = 1.3;        // on the heuristic: larger is greedier
+  double soft_weight = 2.0;   // likewise in soft search
+  double rest_factor = 4.0;   // soft search: how much dearer it is to rest in somebody's way
+  double cell = 1.0;          // poses in one cell (m) and heading compete
+  std::size_t shot_words = 3; // analytic connections tried at a time
+};
+
+struct TourQuery {
+  const Model* model = nullptr;
+  bool fine = false;
+  Pose start;
+  int mode = -1;
+  Ticks ready = 0;
+  const std::vector<Leg>* legs = nullptr;
+  const Traffic* traffic = nullptr;                  // null: alone on the site
+  const std::vector<double>* required = nullptr;     // gap to each track
+  const std::vector<double>* penalty = nullptr;      // soft search: cost of hitting each track;
+                                                     // negative: it does not move away
+};
+
+struct TourStop {
+  int leg = 0;
+  Ticks arrive = 0, leave = 0;
+};
+
+struct TourResult {
+  enum class Outcome { kFound, kExhausted, kStopped };
+  Outcome outcome = Outcome::kExhausted;
+  std::vector<TimedPiece> pieces;
+  std::vector<TourStop> stops;
+  std::vector<int> hits;      // tracks that a soft path runs into
+  Ticks arrival = 0;
+};
+
+// Reusable search: keeps its memory and its tables from query to query.
+class TourSearch {
+ public:
+  TourSearch(const SearchParams& params, const Objective& objective)
+      : params_(params), objective_(objective) {}
+
+  // `limit`: expansions for this query alone.
+  TourResult operator()(const TourQuery& query, std::int64_t limit, Budget& budget);
+
+ private:
+  friend class TourRun;
+
+  const GoalDistance& goal_distance(const Statics& statics, double radius, const Pose& goal);
+  const HeadingTable& heading_table(const Model& model, bool fine, double theta);
+  ConnectTable& connect_table(const Model& model, bool fine);
+
+  SearchParams params_;
+  Objective objective_;
+  std::map<std::tuple<const Statics*, double, double, double>, GoalDistance> goal_distances_;
+  std::map<std::tuple<const Model*, bool, long>, HeadingTable> heading_tables_;
+  std::map<std::tuple<const Model*, bool>, ConnectTable> connect_tables_;
+};
+
+}  // namespace clearway

@@ -1,0 +1,107 @@
+// What moves: planned trajectories, found by tiles of space and time.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "clearway/geometry/body.hpp"
+#include "clearway/motion/table.hpp"
+#include "clearway/space/statics.hpp"
+
+namespace clearway {
+
+// A stretch of a trajectory; standing is a piece without motion (mode -1).
+struct TimedPiece {
+  Ticks begin = 0, end = 0;
+  Pose start;
+  Twist twist;
+  int mode = -1;
+  int body = 0;  // index into the robot's bodies: 0 empty, 1 loaded
+};
+
+// One robot's motion, gap-free from its first tick; afterwards it stands until it is `gone`.
+class Track {
+ public:
+  Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
+        Ticks gone = kNever);
+
+  struct Sight {
+    Frame frame;
+    const Body* body;
+    double until;  // the body keeps its shape at least to this tick
+  };
+  Sight at(double tick) const;
+
+  const std::vector<TimedPiece>& pieces() const { return pieces_; }
+  // From here on nothing about it changes any more.
+  Ticks settled() const { return pieces_.empty() ? 0 : pieces_.back().end; }
+  Ticks gone() const { return gone_; }
+  double speed() const { return speed_; }        // of its fastest body point, m per tick
+  double circumradius() const { return circumradius_; }
+
+ private:
+  const std::vector<Body>* bodies_;
+  std::vector<TimedPiece> pieces_;
+  std::vector<Frame> frames_;       // at each piece's start, and the last one's end
+  std::vector<std::int32_t> slot_;  // first piece of each slot of time
+  Ticks gone_;
+  double speed_ = 0.0;
+  double circumradius_ = 0.0;
+  bool changes_shape_ = false;
+};
+
+// A body in motion (or at rest) during [begin, begin + duration].
+struct Mover {
+  const Body* body;
+  Frame start;
+  Twist twist;
+  double begin = 0.0;
+  double duration = 0.0;
+};
+
+class Traffic {
+ public:
+  struct Presence {
+    std::int32_t track;
+    Ticks begin, end;
+  };
+
+  // `radius`: largest circumradius of any body; `reach`: how far a mover may get from its start
+  // within one question; `gap`: the largest gap that will be required.
+  Traffic(const Box& box, double radius, double reach, double gap);
+
+  double reach() const { return reach_; }
+  void insert(int id, std::shared_ptr<const Track> track);
+  void remove(int id);
+  bool has(int id) const {
+    return static_cast<std::size_t>(id) < tracks_.size() && tracks_[static_cast<std::size_t>(id)];
+  }
+  bool empty() const { return count_ == 0; }
+
+  // Everything that may come near a mover starting at (x, y), in no order.
+  const std::vector<Presence>& near(double x, double y) const;
+
+  // First tick at which the mover's gap to a track falls below `required`, or a negative value.
+  // `last_clear` becomes the last tick known to be clear before that.
+  double first_conflict(const Presence& who, const Mover& mover, double required,
+                        double* last_clear = nullptr) const;
+
+  // First tick from `from` on at which a body at rest is clear of a track it now conflicts with.
+  Ticks clear_after(int track, const Body& body, const Frame& at, Ticks from, double required) const;
+
+ private:
+  std::size_t tile(double x, double y) const;
+
+  Box box_;
+  double radius_, reach_, gap_;
+  int width_ = 0, height_ = 0;
+  int count_ = 0;
+  std::vector<std::vector<Presence>> tiles_;
+  std::vector<std::shared_ptr<const Track>> tracks_;
+  std::vector<std::vector<std::int32_t>> where_;  // tiles of each track
+};
+
+// How far a conservative step may overshoot: half of it can be lost of the required gap.
+inline double step_slack(double required) { return std::min(0.05, std::max(0.0008, required)); }
+
+}  // namespace clearway

@@ -1,0 +1,153 @@
+#include <algorithm>
+
+#include "clearway/motion/reeds_shepp.hpp"
+#include "clearway/motion/table.hpp"
+
+namespace clearway {
+
+namespace {
+
+constexpr double kNothing = 1e-7;  // shorter segments (m, rad) are left out
+
+// A word or turn with its cost, before its steps are spelled out.
+struct Candidate {
+  double cost;
+  const Connection* connection;
+  Word word;            // Reeds-Shepp
+  double turn0, drive, turn1;  // turn on the spot, drive, turn on the spot
+};
+
+void add_turn(const Connection& how, double angle, std::vector<Step>& steps) {
+  if (std::abs(angle) < kNothing) return;
+  steps.push_back({angle > 0.0 ? how.rotate_left : how.rotate_right, {0.0, 0.0, angle},
+                   std::max<Ticks>(1, to_ticks(std::abs(angle) / how.yaw_rate))});
+}
+
+void add_drive(const Connection& how, double length, double turn, std::vector<Step>& steps) {
+  if (std::abs(length) < kNothing) return;
+  const bool ahead = length > 0.0;
+  const bool left = (turn > 0.0) == ahead;  // the turn's centre lies on the left
+  double speed = ahead ? how.forward_speed : how.reverse_speed;
+  int mode = ahead ? how.forward : how.reverse;
+  if (turn != 0.0) {
+    speed = ahead ? how.forward_arc_speed : how.reverse_arc_speed;
+    mode = ahead ? (left ? how.forward_left : how.forward_right)
+                 : (left ? how.reverse_left : how.reverse_right);
+  }
+  steps.push_back({mode,
+                   {length * std::cos(how.direction), length * std::sin(how.direction), turn},
+                   std::max<Ticks>(1, to_ticks(std::abs(length) / speed))});
+}
+
+double drive_cost(const Objective& objective, const Connection& how, double length, bool turning) {
+  if (std::abs(length) < kNothing) return 0.0;
+  const bool ahead = length > 0.0;
+  const double speed = turning ? (ahead ? how.forward_arc_speed : how.reverse_arc_speed)
+                               : (ahead ? how.forward_speed : how.reverse_speed);
+  if (speed <= 0.0) return 1e18;
+  if (objective.time) return std::abs(length) / speed * kTicksPerSecond;
+  return std::abs(length) * (turning ? objective.turning : 1.0);
+}
+
+double turn_cost(const Objective& objective, const Connection& how, double angle) {
+  if (objective.time) return std::abs(angle) / how.yaw_rate * kTicksPerSecond;
+  return std::abs(angle) * objective.turn_arm * objective.turning;
+}
+
+// Put the standing time between unlike modes in, and add everything up.
+void add_switches(const MotionTable& table, const Objective& objective, Shot& shot) {
+  std::vector<Step> steps;
+  for (const Step& step : shot.steps) {
+    if (!steps.empty() && step.mode != steps.back().mode) {
+      if (!objective.time) shot.cost += objective.mode_switch;
+      if (table.switch_duration > 0) steps.push_back({-1, {}, table.switch_duration});
+    }
+    shot.cost += objective_of(objective, step);
+    steps.push_back(step);
+  }
+  for (const Step& step : steps) shot.duration += step.duration;
+  if (objective.time) shot.cost = shot.duration;
+  shot.steps = std::move(steps);
+}
+
+}  // namespace
+
+double MotionTable::reach() const {
+  double most = 0.0;
+  for (const Primitive& p : primitives) most = std::max(most, p.twist.length());
+  return most;
+}
+
+double objective_of(const Objective& objective, const Step& step) {
+  if (objective.time) return step.duration;
+  const double length = step.twist.length();
+  if (length == 0.0) return std::abs(step.twist.c) * objective.turn_arm * objective.turning;
+  return length * (step.twist.c != 0.0 ? objective.turning : 1.0);
+}
+
+void connect(const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,
+             std::size_t count, std::vector<Shot>& out) {
+  out.clear();
+  constexpr std::size_t kMost = 6;
+  Candidate best[kMost];
+  std::size_t num_best = 0;
+  count = std::min(count, kMost);
+  const auto offer = [&](const Candidate& c) {
+    if (c.cost >= 1e17) return;
+    if (num_best == count && c.cost >= best[num_best - 1].cost) return;
+    std::size_t at = num_best < count ? num_best++ : num_best - 1;
+    while (at > 0 && best[at - 1].cost > c.cost) {
+      best[at] = best[at - 1];
+      --at;
+    }
+    best[at] = c;
+  };
+  const Frame start(from);
+  const Point local = start.to_local({to.x, to.y});
+  const double turn = wrap(to.theta - from.theta);
+  for (const Connection& how : table.connections) {
+    const double c = std::cos(how.direction), s = std::sin(how.direction);
+    // Seen from a frame whose x axis is the direction of travel.
+    const double x = c * local.x + s * local.y, y = -s * local.x + c * local.y;
+    if (how.family == Family::kReedsShepp) {
+      reeds_shepp_words(x / how.radius, y / how.radius, turn, [&](const Word& word) {
+        double cost = 0.0;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(word.size); ++i) {
+          cost += drive_cost(objective, how, word.length[i] * how.radius,
+                             word.turn[i] != Turn::kStraight);
+        }
+        offer({cost, &how, word, 0.0, 0.0, 0.0});
+      });
+    } else {
+      const double distance = std::hypot(x, y);
+      const double bearing = distance > kNothing ? std::atan2(y, x) : 0.0;
+      for (const double way : {1.0, -1.0}) {
+        const double turn0 = wrap(way > 0.0 ? bearing : bearing + std::numbers::pi);
+        const double turn1 = wrap(turn - turn0);
+        const double cost = turn_cost(objective, how, turn0) +
+                            drive_cost(objective, how, way * distance, false) +
+                            turn_cost(objective, how, turn1);
+        offer({cost, &how, {}, turn0, way * distance, turn1});
+      }
+    }
+  }
+  for (std::size_t i = 0; i < num_best; ++i) {
+    Shot shot;
+    const Candidate& pick = best[i];
+    if (pick.connection->family == Family::kReedsShepp) {
+      for (std::size_t k = 0; k < static_cast<std::size_t>(pick.word.size); ++k) {
+        const double length = pick.word.length[k] * pick.connection->radius;
+        add_drive(*pick.connection, length,
+                  pick.word.length[k] * static_cast<int>(pick.word.turn[k]), shot.steps);
+      }
+    } else {
+      add_turn(*pick.connection, pick.turn0, shot.steps);
+      add_drive(*pick.connection, pick.drive, 0.0, shot.steps);
+      add_turn(*pick.connection, pick.turn1, shot.steps);
+    }
+    add_switches(table, objective, shot);
+    out.push_back(std::move(shot));
+  }
+}
+
+}  // namespace clearway

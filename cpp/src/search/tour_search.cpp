@@ -1,0 +1,632 @@
+#include "clearway/search/tour_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "clearway/search/cells.hpp"
+
+namespace clearway {
+
+namespace {
+
+constexpr double kGoalCell = 0.5;   // grid of the obstacle-aware goal distance (m)
+constexpr int kMostDelays = 64;     // departures tried for one motion before it is given up
+constexpr std::int32_t kNone = -1;
+
+struct Node {
+  double x, y;
+  double cost;              // objective so far
+  Ticks t, end;             // the safe interval is left at `end` (set when expanded)
+  Ticks departure;          // from the parent
+  std::int32_t parent;
+  std::int32_t hits;        // head of the list of tracks run into (soft search)
+  std::int32_t edge;        // primitive, or num_primitives + shot
+  std::int16_t leg, k, mode;
+  bool arrives;             // the edge ended at the visit of leg - 1
+};
+
+struct Hit {
+  std::int32_t track, next;
+};
+
+struct Open {
+  double f;
+  std::int32_t node;
+  bool operator<(const Open& other) const {
+    return f != other.f ? f > other.f : node < other.node;
+  }
+};
+
+}  // namespace
+
+// One query's search.
+class TourRun {
+ public:
+  TourRun(TourSearch& search, const TourQuery& query)
+      : s_(search),
+        q_(query),
+        table_(query.fine ? query.model->fine : query.model->table),
+        legs_(*query.legs),
+        connect_table_(search.connect_table(*query.model, query.fine)),
+        weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
+        cells_(query.fine ? 0.5 * search.params_.cell : search.params_.cell,
+               (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)) {}
+
+  TourResult run(std::int64_t limit, Budget& budget);
+
+ private:
+  struct Edge {
+    const Step* steps;
+    std::size_t size;
+    Ticks duration;
+  };
+
+  void prepare();
+  double estimate(int leg, double x, double y, double theta);
+  double remaining(int leg, double x, double y, double theta);
+  void expand(std::int32_t index);
+  void shoot(std::int32_t index);
+  void launch(std::int32_t parent, std::int32_t edge, const Node& target, Ticks from, bool soft);
+  void relaunch(const Node& node, Ticks from);
+  bool push(Node child, Ticks arrival, Ticks departure);
+  Edge edge_of(std::int32_t edge) const;
+  bool is_hit(std::int32_t list, int track) const;
+  double price(int track) const;
+
+  double required(int track) const { return (*q_.required)[static_cast<std::size_t>(track)]; }
+  const Body& body(int leg) const {
+    return q_.model->bodies[static_cast<std::size_t>(legs_[static_cast<std::size_t>(leg)].body)];
+  }
+  const Statics& statics(int leg) const {
+    return *q_.model->statics[static_cast<std::size_t>(legs_[static_cast<std::size_t>(leg)].body)];
+  }
+  int body_leg(int leg) const { return std::min(leg, static_cast<int>(legs_.size()) - 1); }
+  double theta(const Node& n) const { return headings_[static_cast<std::size_t>(n.leg)]->theta(n.k); }
+  Frame frame(const Node& n) const {
+    return headings_[static_cast<std::size_t>(n.leg)]->frame(n.x, n.y, n.k);
+  }
+
+  Ticks safe_until(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
+  Ticks next_free(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
+  bool conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
+                std::int32_t hits, int* track, Ticks* free_departure) const;
+  std::int32_t collect(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
+                       std::int32_t hits);
+  std::int32_t collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
+                                std::int32_t hits);
+  TourResult extract(std::int32_t goal);
+
+  TourSearch& s_;
+  const TourQuery& q_;
+  const MotionTable& table_;
+  const std::vector<Leg>& legs_;
+  ConnectTable& connect_table_;
+  double weight_;
+  Cells cells_;
+
+  std::vector<const HeadingTable*> headings_;     // per leg, and one more after the last
+  std::vector<const GoalDistance*> distances_;
+  std::vector<Frame> goal_frames_;
+  std::vector<double> tail_;                      // estimate of all that follows a leg
+  std::vector<std::vector<Step>> primitive_steps_;
+  std::vector<Node> nodes_;
+  std::vector<Hit> hits_;
+  std::vector<Open> open_;
+  std::vector<Shot> shots_;
+  std::vector<Shot> tried_;
+  std::int32_t found_ = kNone;
+  Ticks earliest_rest_ = 0;                       // no final rest can begin before
+  bool hopeless_ = false;
+  double since_shot_ = 0.0;
+};
+
+void TourRun::prepare() {
+  const std::size_t n = legs_.size();
+  double heading = q_.start.theta;
+  for (std::size_t i = 0; i <= n; ++i) {
+    headings_.push_back(&s_.heading_table(*q_.model, q_.fine, heading));
+    if (i == n) break;
+    heading = legs_[i].goal.theta;
+    const int l = static_cast<int>(i);
+    distances_.push_back(&s_.goal_distance(statics(l), body(l).inradius(), legs_[i].goal));
+    goal_frames_.emplace_back(legs_[i].goal);
+  }
+  tail_.assign(n, 0.0);
+  for (std::size_t i = n - 1; i-- > 0;) {
+    const Pose& p = legs_[i].goal;
+    tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta) +
+               (s_.objective_.time ? legs_[i].service : 0);
+  }
+  for (const Primitive& p : table_.primitives) {
+    primitive_steps_.push_back({{p.mode, p.twist, p.duration}});
+  }
+  if (!q_.traffic || q_.penalty) return;
+  const Leg& last = legs_.back();
+  const Frame rest(last.goal);
+  const int l = static_cast<int>(n) - 1;
+  Ticks t = q_.ready;
+  while (true) {
+    const Ticks end = safe_until(body(l), rest, t, kNone);
+    if (end >= kNever) break;
+    t = next_free(body(l), rest, end + 1, kNone);
+    if (t >= kNever) {
+      hopeless_ = true;  // somebody rests there for ever
+      return;
+    }
+  }
+  earliest_rest_ = t;
+}
+
+double TourRun::estimate(int leg, double x, double y, double theta) {
+  const auto l = static_cast<std::size_t>(leg);
+  const float distance = (*distances_[l])(x, y);
+  if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
+  const double metres = std::max(0.0, static_cast<double>(distance) - 0.5 * kGoalCell);
+  const double way =
+      s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
+  const Frame& goal = goal_frames_[l];
+  const Point local = goal.to_local({x, y});
+  const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
+  return std::max(way, exact);
+}
+
+double TourRun::remaining(int leg, double x, double y, double theta) {
+  if (leg >= static_cast<int>(legs_.size())) return 0.0;
+  return estimate(leg, x, y, theta) + tail_[static_cast<std::size_t>(leg)];
+}
+
+TourRun::Edge TourRun::edge_of(std::int32_t edge) const {
+  const auto i = static_cast<std::size_t>(edge);
+  if (i < primitive_steps_.size()) {
+    return {primitive_steps_[i].data(), 1, primitive_steps_[i][0].duration};
+  }
+  const Shot& shot = shots_[i - primitive_steps_.size()];
+  return {shot.steps.data(), shot.steps.size(), shot.duration};
+}
+
+bool TourRun::is_hit(std::int32_t list, int track) const {
+  for (; list != kNone; list = hits_[static_cast<std::size_t>(list)].next) {
+    if (hits_[static_cast<std::size_t>(list)].track == track) return true;
+  }
+  return false;
+}
+
+double TourRun::price(int track) const { return (*q_.penalty)[static_cast<std::size_t>(track)]; }
+
+Ticks TourRun::safe_until(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const {
+  if (!q_.traffic) return kNever;
+  double end = kNever;
+  for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
+    if (who.end < from || who.begin >= end || is_hit(hits, who.track)) continue;
+    const Mover mover{&body, at, {}, static_cast<double>(from), end - from};
+    double clear = from;
+    if (q_.traffic->first_conflict(who, mover, required(who.track), &clear) >= 0.0) {
+      end = std::min(end, clear);
+    }
+  }
+  return static_cast<Ticks>(end);
+}
+
+Ticks TourRun::next_free(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const {
+  Ticks t = from;
+  for (bool again = true; again;) {
+    again = false;
+    for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
+      if (t < who.begin || t > who.end || is_hit(hits, who.track)) continue;
+      const Ticks clear = q_.traffic->clear_after(who.track, body, at, t, required(who.track));
+      if (clear >= kNever) return kNever;
+      if (clear > t) {
+        t = clear;
+        again = true;
+      }
+    }
+  }
+  return t;
+}
+
+// Whether driving the edge from `departure` on runs into anybody; if so, whom, and the first
+// departure at which the place of that conflict is free of him.
+bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
+                       std::int32_t hits, int* track, Ticks* free_departure) const {
+  if (!q_.traffic || q_.traffic->empty()) return false;
+  Frame at = from;
+  double t = departure;
+  for (std::size_t i = 0; i < edge.size; ++i) {
+    const Step& step = edge.steps[i];
+    const int chunks =
+        std::max(1, static_cast<int>(std::ceil(step.twist.length() / q_.traffic->reach() - 1e-9)));
+    const Twist part = step.twist.part(1.0 / chunks);
+    const double duration = static_cast<double>(step.duration) / chunks;
+    for (int c = 0; c < chunks; ++c) {
+      for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
+        if (who.end < t || who.begin > t + duration || is_hit(hits, who.track)) continue;
+        const Mover mover{&body, at, part, t, duration};
+        const double when = q_.traffic->first_conflict(who, mover, required(who.track));
+        if (when < 0.0) continue;
+        *track = who.track;
+        if (free_departure) {
+          const Frame place = moved(at, part.part((when - t) / duration));
+          const Ticks clear = q_.traffic->clear_after(
+              who.track, body, place, static_cast<Ticks>(std::ceil(when)), required(who.track));
+          *free_departure =
+              clear >= kNever
+                  ? kNever
+                  : clear - static_cast<Ticks>(std::floor(when - departure));
+        }
+        return true;
+      }
+      at = moved(at, part);
+      t += duration;
+    }
+  }
+  return false;
+}
+
+std::int32_t TourRun::collect(const Body& body, const Frame& from, const Edge& edge,
+                              Ticks departure, std::int32_t hits) {
+  int track = 0;
+  while (conflict(body, from, edge, departure, hits, &track, nullptr)) {
+    hits_.push_back({track, hits});
+    hits = static_cast<std::int32_t>(hits_.size()) - 1;
+  }
+  return hits;
+}
+
+std::int32_t TourRun::collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
+                                       std::int32_t hits) {
+  for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
+    if (who.end < from || who.begin > until || is_hit(hits, who.track)) continue;
+    const Mover mover{&body, at, {}, static_cast<double>(from), static_cast<double>(until - from)};
+    if (q_.traffic->first_conflict(who, mover, required(who.track)) < 0.0) continue;
+    hits_.push_back({who.track, hits});
+    hits = static_cast<std::int32_t>(hits_.size()) - 1;
+  }
+  return hits;
+}
+
+// Find the first departure at or after `from`, within the parent's safe interval, at which the
+// edge can be driven and its end be occupied as long as needed; push what it leads to. In soft
+// search with `soft`, depart at `from` and pay for whoever is in the way.
+void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const Node& target,
+                     Ticks from, bool soft) {
+  const Node parent = nodes_[static_cast<std::size_t>(parent_index)];
+  const Edge edge = edge_of(edge_index);
+  const Body& moving = body(parent.leg);
+  const Frame start = frame(parent);
+  const Frame end = frame(target);
+  const std::size_t num_legs = legs_.size();
+  const bool last = target.arrives && target.leg == static_cast<int>(num_legs);
+  const Ticks service =
+      target.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
+  Ticks departure = from;
+  for (int delay = 0; delay < kMostDelays; ++delay) {
+    if (departure > parent.end || (departure > parent.t && !can_wait)) return;
+    const Ticks arrival = departure + edge.duration;
+    Node child = target;
+    child.hits = parent.hits;
+    if (soft) {
+      child.hits = collect(moving, start, edge, departure, child.hits);
+      if (target.arrives && !last) {
+        child.hits = collect_standing(moving, end, arrival, arrival + service, child.hits);
+      }
+      for (std::int32_t h = child.hits; h != parent.hits; h = hits_[static_cast<std::size_t>(h)].next) {
+        const double penalty = price(hits_[static_cast<std::size_t>(h)].track);
+        if (penalty < 0.0) return;
+        child.cost += penalty;
+      }
+      if (last) {
+        // Who needs to pass a robot at its final rest can only pass before: that is dearer.
+        const std::int32_t met = collect_standing(moving, end, arrival, kNever, kNone);
+        for (std::int32_t h = met; h != kNone; h = hits_[static_cast<std::size_t>(h)].next) {
+          const int track = hits_[static_cast<std::size_t>(h)].track;
+          if (price(track) < 0.0) return;
+          child.cost += s_.params_.rest_factor * price(track);
+          if (is_hit(child.hits, track)) continue;
+          hits_.push_back({track, child.hits});
+          child.hits = static_cast<std::int32_t>(hits_.size()) - 1;
+        }
+      }
+      push(child, arrival, departure);
+      return;
+    }
+    int track = 0;
+    Ticks later = 0;
+    if (conflict(moving, start, edge, departure, parent.hits, &track, &later)) {
+      if (later >= kNever) return;
+      departure = std::max(departure + 1, later);
+      continue;
+    }
+    if (target.arrives && q_.traffic) {
+      const std::int32_t spared = last ? kNone : parent.hits;
+      const Ticks until = safe_until(moving, end, arrival, spared);
+      if (until < (last ? kNever : arrival + service)) {
+        const Ticks clear = next_free(moving, end, until + 1, spared);
+        if (clear >= kNever) return;
+        departure = std::max(departure + 1, clear - edge.duration);
+        continue;
+      }
+    }
+    const Ticks t = arrival + service;
+    const double cost = parent.cost + target.cost;
+    const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
+    if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t,
+                                               cost, standing)) {
+      if (seen->end >= kNever || !q_.traffic) return;
+      const Ticks clear = next_free(body(body_leg(target.leg)), end, seen->end + 1, parent.hits);
+      if (clear >= kNever) return;
+      departure = std::max(departure + 1, clear - edge.duration - service);
+      continue;
+    }
+    push(child, arrival, departure);
+    return;
+  }
+}
+
+// `child.cost` holds what the edge adds; waiting and service are added here.
+bool TourRun::push(Node child, Ticks arrival, Ticks departure) {
+  const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
+  const Ticks service =
+      child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  child.departure = departure;
+  child.t = arrival + service;
+  child.end = -1;
+  child.cost += parent.cost;
+  child.cost += s_.objective_.time
+                    ? departure - parent.t + service
+                    : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond;
+  const double h = remaining(child.leg, child.x, child.y, theta(child));
+  if (!std::isfinite(h)) return false;
+  const auto index = static_cast<std::int32_t>(nodes_.size());
+  nodes_.push_back(child);
+  open_.push_back({child.cost + weight_ * h, index});
+  std::push_heap(open_.begin(), open_.end());
+  const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
+  // Nothing can come to rest earlier than this, so nothing better is left to find.
+  if (last && s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
+      arrival <= earliest_rest_ + 1000) {
+    found_ = index;
+  }
+  return true;
+}
+
+// Drive a node's own edge again, later.
+void TourRun::relaunch(const Node& node, Ticks from) {
+  if (node.parent == kNone) return;
+  Node target = node;
+  const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
+  const Edge edge = edge_of(node.edge);
+  // Strip what push() added, so that the target carries the edge's own cost again.
+  target.cost = s_.objective_.time ? edge.duration
+                                   : node.cost - parent.cost -
+                                         s_.objective_.waiting *
+                                             (node.departure - parent.t) / kTicksPerSecond;
+  if (!s_.objective_.time && q_.penalty && node.hits != parent.hits) return;
+  launch(node.parent, node.edge, target, std::max(from, node.departure + 1), false);
+}
+
+void TourRun::expand(std::int32_t index) {
+  const Node node = nodes_[static_cast<std::size_t>(index)];
+  const HeadingTable& headings = *headings_[static_cast<std::size_t>(node.leg)];
+  const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
+  const Statics& around = statics(node.leg);
+  const Body& moving = body(node.leg);
+  const double slack = step_slack(leg.required);
+  for (std::size_t i = 0; i < table_.primitives.size(); ++i) {
+    const Primitive& p = table_.primitives[i];
+    const bool switching = node.mode >= 0 && p.mode != node.mode;
+    if (node.mode >= 0 && !(p.from >> node.mode & 1U)) continue;
+    const HeadingTable::Landing& landing = headings.landing(node.k, i);
+    Node target{};
+    target.x = node.x + landing.dx;
+    target.y = node.y + landing.dy;
+    target.k = static_cast<std::int16_t>(landing.k);
+    target.leg = node.leg;
+    target.mode = static_cast<std::int16_t>(p.mode);
+    target.parent = index;
+    target.edge = static_cast<std::int32_t>(i);
+    const Ticks pause = switching ? table_.switch_duration : 0;
+    if (s_.objective_.time) {
+      target.cost = p.duration;
+    } else {
+      target.cost = p.cost + (switching ? s_.objective_.mode_switch : 0.0);
+    }
+    const Ticks earliest = node.t + pause + p.duration;
+    const Interval* seen = cells_.covering(target.x, target.y, target.k, target.leg, target.mode,
+                                           earliest, node.cost + target.cost, pause);
+    if (seen && seen->end >= kNever) continue;
+    if (!headings.surely_clear(around, leg.body, target.x - landing.dx, target.y - landing.dy,
+                               node.k, i, leg.required) &&
+        !around.clear(moving, headings.frame(node.x, node.y, node.k), p.twist, leg.required,
+                      slack)) {
+      continue;
+    }
+    if (q_.penalty) {
+      const std::size_t before = hits_.size();
+      launch(index, target.edge, target, node.t + pause, true);
+      if (hits_.size() == before) continue;  // nobody in the way: waiting gains nothing
+    }
+    launch(index, target.edge, target, node.t + pause, false);
+  }
+}
+
+void TourRun::shoot(std::int32_t index) {
+  const Node node = nodes_[static_cast<std::size_t>(index)];
+  const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
+  const double distance = (*distances_[static_cast<std::size_t>(node.leg)])(node.x, node.y);
+  since_shot_ += 1.0;
+  if (since_shot_ < 1.0 + distance) return;
+  since_shot_ = 0.0;
+  const Pose from{node.x, node.y, theta(node)};
+  connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_);
+  const double slack = step_slack(leg.required);
+  for (Shot& shot : tried_) {
+    Frame at = frame(node);
+    bool clear = true;
+    for (const Step& step : shot.steps) {
+      if (step.mode >= 0 &&
+          !statics(node.leg).clear(body(node.leg), at, step.twist, leg.required, slack)) {
+        clear = false;
+        break;
+      }
+      at = moved(at, step.twist);
+    }
+    if (!clear) continue;
+    Node target{};
+    target.x = leg.goal.x;
+    target.y = leg.goal.y;
+    target.leg = static_cast<std::int16_t>(node.leg + 1);
+    target.k = static_cast<std::int16_t>(
+        headings_[static_cast<std::size_t>(target.leg)]->index(leg.goal.theta));
+    target.parent = index;
+    target.arrives = true;
+    target.mode = static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
+    Ticks pause = 0;
+    target.cost = shot.cost;
+    if (!shot.steps.empty() && node.mode >= 0 && shot.steps.front().mode != node.mode) {
+      pause = table_.switch_duration;
+      if (!s_.objective_.time) target.cost += s_.objective_.mode_switch;
+    }
+    target.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
+    shots_.push_back(std::move(shot));
+    if (q_.penalty) launch(index, target.edge, target, node.t + pause, true);
+    launch(index, target.edge, target, node.t + pause, false);
+    return;
+  }
+}
+
+TourResult TourRun::run(std::int64_t limit, Budget& budget) {
+  TourResult result;
+  prepare();
+  if (hopeless_) return result;
+  Node start{};
+  start.x = q_.start.x;
+  start.y = q_.start.y;
+  start.t = q_.ready;
+  start.parent = kNone;
+  start.hits = kNone;
+  start.edge = kNone;
+  start.mode = static_cast<std::int16_t>(q_.mode);
+  start.k = static_cast<std::int16_t>(headings_[0]->index(q_.start.theta));
+  nodes_.push_back(start);
+  open_.push_back({0.0, 0});
+  bool by_mode = table_.switch_duration > 0 || !s_.objective_.time;
+  for (const Primitive& p : table_.primitives) by_mode = by_mode || p.from != ~0ULL;
+  cells_.distinguish_modes(by_mode);
+  const int num_legs = static_cast<int>(legs_.size());
+  std::int64_t spent = 0;
+  while (!open_.empty() && found_ == kNone) {
+    std::pop_heap(open_.begin(), open_.end());
+    const std::int32_t index = open_.back().node;
+    open_.pop_back();
+    const Node node = nodes_[static_cast<std::size_t>(index)];
+    if (node.leg == num_legs) {
+      found_ = index;
+      break;
+    }
+    const Body& standing = body(node.leg);
+    const Frame at = frame(node);
+    if (const Interval* seen = cells_.covering(node.x, node.y, node.k, node.leg, node.mode, node.t,
+                                               node.cost, 0)) {
+      if (seen->end < kNever && q_.traffic) {
+        const Ticks clear = next_free(standing, at, seen->end + 1, node.hits);
+        if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
+      }
+      continue;
+    }
+    if (!budget.spend() || ++spent > limit) {
+      result.outcome = TourResult::Outcome::kStopped;
+      return result;
+    }
+    const bool can_wait = node.mode < 0 || table_.rest[static_cast<std::size_t>(node.mode)];
+    const Ticks end = can_wait ? safe_until(standing, at, node.t, node.hits) : node.t;
+    nodes_[static_cast<std::size_t>(index)].end = end;
+    cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost});
+    shoot(index);
+    expand(index);
+    if (end < kNever && can_wait && q_.traffic && node.parent != kNone) {
+      const Ticks clear = next_free(standing, at, end + 1, node.hits);
+      if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
+    }
+  }
+  return found_ == kNone ? result : extract(found_);
+}
+
+TourResult TourRun::extract(std::int32_t goal) {
+  TourResult result;
+  result.outcome = TourResult::Outcome::kFound;
+  for (std::int32_t h = nodes_[static_cast<std::size_t>(goal)].hits; h != kNone;
+       h = hits_[static_cast<std::size_t>(h)].next) {
+    result.hits.push_back(hits_[static_cast<std::size_t>(h)].track);
+  }
+  std::vector<std::int32_t> chain;
+  for (std::int32_t i = goal; i != kNone; i = nodes_[static_cast<std::size_t>(i)].parent) {
+    chain.push_back(i);
+  }
+  std::reverse(chain.begin(), chain.end());
+  Pose at = q_.start;
+  Ticks t = 0;
+  int carried = legs_.front().body;
+  const auto stand = [&](Ticks until) {
+    if (until > t) result.pieces.push_back({t, until, at, {}, -1, carried});
+    t = std::max(t, until);
+  };
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const Node& node = nodes_[static_cast<std::size_t>(chain[i])];
+    const Edge edge = edge_of(node.edge);
+    const int leg = node.arrives ? node.leg - 1 : node.leg;
+    carried = legs_[static_cast<std::size_t>(leg)].body;
+    stand(node.departure);
+    for (std::size_t k = 0; k < edge.size; ++k) {
+      const Step& step = edge.steps[k];
+      result.pieces.push_back({t, t + step.duration, at, step.twist, step.mode, carried});
+      at = moved(at, step.twist);
+      at.theta = wrap(at.theta);
+      t += step.duration;
+    }
+    if (node.arrives) {
+      at = legs_[static_cast<std::size_t>(leg)].goal;
+      result.stops.push_back({leg, t, t + legs_[static_cast<std::size_t>(leg)].service});
+      stand(result.stops.back().leave);
+    }
+  }
+  result.arrival = result.stops.empty() ? 0 : result.stops.back().arrive;
+  return result;
+}
+
+TourResult TourSearch::operator()(const TourQuery& query, std::int64_t limit, Budget& budget) {
+  TourRun run(*this, query);
+  return run.run(limit, budget);
+}
+
+const GoalDistance& TourSearch::goal_distance(const Statics& statics, double radius,
+                                              const Pose& goal) {
+  const auto key = std::make_tuple(&statics, radius, goal.x, goal.y);
+  const auto found = goal_distances_.find(key);
+  if (found != goal_distances_.end()) return found->second;
+  return goal_distances_
+      .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, kGoalCell))
+      .first->second;
+}
+
+const HeadingTable& TourSearch::heading_table(const Model& model, bool fine, double theta) {
+  const MotionTable& table = fine ? model.fine : model.table;
+  const double step = kTau / table.headings;
+  const double base = theta - step * std::floor(theta / step + 1e-9);
+  const auto key = std::make_tuple(&model, fine, std::lround(base * 1e9));
+  const auto found = heading_tables_.find(key);
+  if (found != heading_tables_.end()) return found->second;
+  return heading_tables_.emplace(key, HeadingTable(table, model.bodies, base)).first->second;
+}
+
+ConnectTable& TourSearch::connect_table(const Model& model, bool fine) {
+  const auto key = std::make_tuple(&model, fine);
+  const auto found = connect_tables_.find(key);
+  if (found != connect_tables_.end()) return found->second;
+  return connect_tables_.emplace(key, ConnectTable(fine ? model.fine : model.table, objective_))
+      .first->second;
+}
+
+}  // namespace clearway

@@ -1,0 +1,184 @@
+#include "clearway/space/traffic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clearway {
+
+namespace {
+
+constexpr double kTile = 2.5;
+constexpr double kChunk = 1.0;   // longest stretch of path marked at once (m)
+constexpr Ticks kSlot = 512;
+constexpr Ticks kMarch = 20;     // coarsest step when waiting for somebody to get clear
+
+}  // namespace
+
+Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
+             Ticks gone)
+    : bodies_(bodies), pieces_(std::move(pieces)), gone_(gone) {
+  while (!pieces_.empty() && pieces_.back().mode < 0 && pieces_.size() > 1 &&
+         pieces_.back().body == pieces_[pieces_.size() - 2].body) {
+    pieces_.pop_back();  // standing at the end needs no piece
+  }
+  circumradius_ = (*bodies_)[0].circumradius();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const TimedPiece& p = pieces_[i];
+    frames_.emplace_back(p.start);
+    const Body& body = (*bodies_)[static_cast<std::size_t>(p.body)];
+    circumradius_ = std::max(circumradius_, body.circumradius());
+    if (p.end > p.begin) {
+      const double travel = p.twist.length() + std::abs(p.twist.c) * body.circumradius();
+      speed_ = std::max(speed_, travel / (p.end - p.begin));
+    }
+    changes_shape_ = changes_shape_ || p.body != pieces_.front().body;
+    while (static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
+      slot_.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  frames_.push_back(pieces_.empty() ? Frame(start)
+                                    : Frame(moved(pieces_.back().start, pieces_.back().twist)));
+}
+
+Track::Sight Track::at(double tick) const {
+  if (tick >= settled()) {
+    const int body = pieces_.empty() ? 0 : pieces_.back().body;
+    return {frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], kNever};
+  }
+  const double slot = std::max(0.0, tick) / kSlot;
+  auto i = static_cast<std::size_t>(slot_[static_cast<std::size_t>(slot)]);
+  while (tick >= pieces_[i].end) ++i;
+  const TimedPiece& p = pieces_[i];
+  const Body* body = &(*bodies_)[static_cast<std::size_t>(p.body)];
+  const double until = changes_shape_ ? p.end : kNever;
+  if (p.mode < 0 || tick <= p.begin) return {frames_[i], body, until};
+  return {moved(frames_[i], p.twist.part((tick - p.begin) / (p.end - p.begin))), body, until};
+}
+
+Traffic::Traffic(const Box& box, double radius, double reach, double gap)
+    : box_(box), radius_(radius), reach_(reach), gap_(gap) {
+  width_ = static_cast<int>((box.x1 - box.x0) / kTile) + 1;
+  height_ = static_cast<int>((box.y1 - box.y0) / kTile) + 1;
+  tiles_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+}
+
+std::size_t Traffic::tile(double x, double y) const {
+  const int ix = std::clamp(static_cast<int>((x - box_.x0) / kTile), 0, width_ - 1);
+  const int iy = std::clamp(static_cast<int>((y - box_.y0) / kTile), 0, height_ - 1);
+  return static_cast<std::size_t>(iy) * static_cast<std::size_t>(width_) +
+         static_cast<std::size_t>(ix);
+}
+
+const std::vector<Traffic::Presence>& Traffic::near(double x, double y) const {
+  return tiles_[tile(x, y)];
+}
+
+void Traffic::insert(int id, std::shared_ptr<const Track> track) {
+  const auto index = static_cast<std::size_t>(id);
+  if (tracks_.size() <= index) {
+    tracks_.resize(index + 1);
+    where_.resize(index + 1);
+  }
+  tracks_[index] = track;
+  ++count_;
+  const double around = track->circumradius() + radius_ + reach_ + gap_;
+  const auto mark = [&](double x, double y, double radius, Ticks begin, Ticks end) {
+    const auto row = [](double v, int top) {
+      return std::clamp(static_cast<int>(std::floor(v / kTile)), 0, top - 1);
+    };
+    for (int iy = row(y - radius - box_.y0, height_); iy <= row(y + radius - box_.y0, height_); ++iy) {
+      for (int ix = row(x - radius - box_.x0, width_); ix <= row(x + radius - box_.x0, width_); ++ix) {
+        const double dx = std::max({box_.x0 + ix * kTile - x, 0.0, x - box_.x0 - (ix + 1) * kTile});
+        const double dy = std::max({box_.y0 + iy * kTile - y, 0.0, y - box_.y0 - (iy + 1) * kTile});
+        if (dx * dx + dy * dy > radius * radius) continue;
+        const std::size_t t = static_cast<std::size_t>(iy) * static_cast<std::size_t>(width_) +
+                              static_cast<std::size_t>(ix);
+        auto& list = tiles_[t];
+        if (!list.empty() && list.back().track == id && list.back().end + 1 >= begin) {
+          list.back().end = std::max(list.back().end, end);
+        } else {
+          list.push_back({id, begin, end});
+          where_[index].push_back(static_cast<std::int32_t>(t));
+        }
+      }
+    }
+  };
+  for (const TimedPiece& p : track->pieces()) {
+    const int chunks = std::max(1, static_cast<int>(std::ceil(p.twist.length() / kChunk)));
+    const double duration = p.end - p.begin;
+    for (int i = 0; i < chunks; ++i) {
+      const Pose middle = moved(p.start, p.twist.part((i + 0.5) / chunks));
+      mark(middle.x, middle.y, around + 0.5 * p.twist.length() / chunks,
+           p.begin + static_cast<Ticks>(duration * i / chunks),
+           p.begin + static_cast<Ticks>(std::ceil(duration * (i + 1) / chunks)));
+    }
+  }
+  const Frame rest = track->at(kNever).frame;
+  mark(rest.x, rest.y, around, track->settled(), track->gone());
+}
+
+void Traffic::remove(int id) {
+  const auto index = static_cast<std::size_t>(id);
+  for (const std::int32_t t : where_[index]) {
+    std::erase_if(tiles_[static_cast<std::size_t>(t)],
+                  [id](const Presence& p) { return p.track == id; });
+  }
+  where_[index].clear();
+  tracks_[index].reset();
+  --count_;
+}
+
+double Traffic::first_conflict(const Presence& who, const Mover& mover, double required,
+                               double* last_clear) const {
+  const Track& track = *tracks_[static_cast<std::size_t>(who.track)];
+  const double finish = std::min(mover.begin + mover.duration, static_cast<double>(who.end));
+  double t = std::max(mover.begin, static_cast<double>(who.begin));
+  if (t > finish) return -1.0;
+  const double radius = mover.body->circumradius();
+  const double travel = mover.twist.length() + std::abs(mover.twist.c) * radius;
+  const double own_speed = travel > 0.0 ? travel / mover.duration : 0.0;
+  const double slack = step_slack(required);
+  if (last_clear) *last_clear = t;
+  while (true) {
+    const Track::Sight other = track.at(t);
+    const Frame self =
+        travel > 0.0 ? moved(mover.start, mover.twist.part((t - mover.begin) / mover.duration))
+                     : mover.start;
+    const double dx = self.x - other.frame.x, dy = self.y - other.frame.y;
+    const double apart = radius + other.body->circumradius() + required;
+    const double square = dx * dx + dy * dy;
+    double room;
+    if (square > (apart + slack) * (apart + slack)) {
+      room = std::sqrt(square) - apart;
+    } else {
+      room = gap(*mover.body, self, *other.body, other.frame, required + 0.5) - required;
+      if (room < -1e-7) return t;
+      room += slack;
+    }
+    if (last_clear) *last_clear = t;
+    if (t >= finish) return -1.0;
+    const double speed = own_speed + (t >= track.settled() ? 0.0 : track.speed());
+    const double next = speed > 0.0 ? t + room / speed : finish;
+    t = std::min({finish, next, other.until});
+  }
+}
+
+Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from,
+                           double required) const {
+  const Track& track = *tracks_[static_cast<std::size_t>(id)];
+  const Ticks last = track.settled();
+  Ticks t = from;
+  while (true) {
+    const Track::Sight other = track.at(t);
+    const double dx = at.x - other.frame.x, dy = at.y - other.frame.y;
+    const double apart = body.circumradius() + other.body->circumradius() + required;
+    if (dx * dx + dy * dy >= apart * apart) return t;
+    const double missing = required - gap(body, at, *other.body, other.frame, required);
+    if (missing <= 0.0) return t;
+    if (t >= last) return track.gone();
+    const double wait = track.speed() > 0.0 ? missing / track.speed() : kMarch;
+    t = std::min(last, t + std::max(kMarch, static_cast<Ticks>(wait)));
+  }
+}
+
+}  // namespace clearway
