@@ -1,0 +1,104 @@
+"""A motion model: modes, short body-frame motions and analytic curves, as plain data."""
+
+import math
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One way of moving.
+
+    Parameters
+    ----------
+    direction
+        Body-frame angle of travel (rad); ``None`` where the reference point stays.
+    turn
+        Where the turn's centre lies: 1 on the body's left, -1 on its right, 0 straight.
+        For a mode without travel: 1 turns counter-clockwise, -1 clockwise.
+    speed
+        Top speed of the reference point (m/s); for turning on the spot, the yaw rate (rad/s).
+    rest
+        Whether the robot may wait in it: only where it can be at rest at once.
+    """
+
+    name: str
+    direction: float | None
+    turn: int
+    speed: float
+    rest: bool = True
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A short motion: whole body-frame displacement ``twist`` (m, m, rad) in ``duration`` (s).
+
+    ``turn_steps`` is the change of heading in steps of a full turn over the model's headings.
+    """
+
+    mode: str
+    twist: tuple[float, float, float]
+    turn_steps: int
+    duration: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A family of analytic curves that reach an exact pose.
+
+    ``reeds_shepp`` drives arcs of ``radius`` (m) and straights along ``direction`` (body-frame
+    angle: 0, or pi/2 for transverse curves); ``turn_drive_turn`` turns on the spot, drives
+    straight along ``direction`` and turns again. ``ahead`` and ``back`` name the modes for
+    straight, left and right; ``spin`` those for turning left and right. A way that may not be
+    driven is ``None``.
+    """
+
+    family: Literal["reeds_shepp", "turn_drive_turn"]
+    direction: float
+    radius: float
+    ahead: tuple[str | None, str | None, str | None]
+    back: tuple[str | None, str | None, str | None]
+    spin: tuple[str | None, str | None] = (None, None)
+
+
+@dataclass(frozen=True)
+class MotionModel:
+    """Modes, motions and curves of one robot type at ``headings`` headings per full turn.
+
+    ``turn_arm`` (m) is the radius of the arc as which turning on the spot is counted in costs
+    of length; ``mode_switch`` (s) the standing time of a change of mode.
+    """
+
+    headings: int
+    modes: tuple[Mode, ...]
+    motions: tuple[Motion, ...]
+    curves: tuple[Curve, ...]
+    yaw_rate: float
+    turn_arm: float
+    mode_switch: float = 0.0
+
+    def __post_init__(self) -> None:
+        names = [mode.name for mode in self.modes]
+        if len(set(names)) != len(names):
+            raise ValueError("two modes of a motion model have the same name")
+        step = 2.0 * math.pi / self.headings
+        for motion in self.motions:
+            if motion.mode not in names:
+                raise ValueError(f"motion in mode {motion.mode!r}, which the model does not have")
+            if abs(motion.twist[2] - motion.turn_steps * step) > 1e-9:
+                raise ValueError(
+                    f"motion in mode {motion.mode!r} turns by {motion.twist[2]:.6f} rad, "
+                    f"not by {motion.turn_steps} steps of {step:.6f} rad"
+                )
+            if motion.duration <= 0.0:
+                raise ValueError(f"motion in mode {motion.mode!r} needs a duration above 0")
+
+    @property
+    def top_speed(self) -> float:
+        """Fastest travel of the reference point (m/s)."""
+        return max((mode.speed for mode in self.modes if mode.direction is not None), default=0.0)
+
+    def mode(self, name: str) -> Mode:
+        """Return the mode of that name."""
+        return next(mode for mode in self.modes if mode.name == name)
+

@@ -1,0 +1,70 @@
+"""Motion models handed to the native core as its tables."""
+
+from clearway import _core
+from clearway.model import to_ticks
+from clearway.motion.model import Curve, MotionModel
+
+FAMILIES = {
+    "reeds_shepp": _core.Family.REEDS_SHEPP,
+    "turn_drive_turn": _core.Family.TURN_DRIVE_TURN,
+}
+
+
+def native_table(model: MotionModel) -> _core.MotionTable:
+    """Return the core's table of a motion model; modes are numbered in the model's order."""
+    number = {mode.name: i for i, mode in enumerate(model.modes)}
+    table = _core.MotionTable()
+    table.headings = model.headings
+    table.top_speed = model.top_speed
+    table.yaw_rate = model.yaw_rate
+    table.rest = [mode.rest for mode in model.modes]
+    table.switch_duration = to_ticks(model.mode_switch)
+    primitives = []
+    for motion in model.motions:
+        a, b, c = motion.twist
+        length = (a * a + b * b) ** 0.5
+        turning = 2.0 if c else 1.0
+        cost = turning * (length if length else abs(c) * model.turn_arm)
+        primitives.append(
+            _core.Primitive(
+                number[motion.mode],
+                _core.Twist(a, b, c),
+                motion.turn_steps,
+                to_ticks(motion.duration),
+                cost,
+            )
+        )
+    table.primitives = primitives
+    table.connections = [_connection(model, curve, number) for curve in model.curves]
+    return table
+
+
+def _connection(model: MotionModel, curve: Curve, number: dict[str, int]) -> _core.Connection:
+    top = {mode.name: mode.speed for mode in model.modes}
+    # Curved travel never turns faster than the yaw rate allows.
+    arc = model.yaw_rate * curve.radius
+
+    def index(name: str | None) -> int:
+        return -1 if name is None else number[name]
+
+    def straight_speed(name: str | None) -> float:
+        return 0.0 if name is None else top[name]
+
+    def arc_speed(left: str | None, right: str | None) -> float:
+        if left is None or right is None:
+            return 0.0
+        return min(top[left], top[right], arc)
+
+    native = _core.Connection()
+    native.family = FAMILIES[curve.family]
+    native.direction = curve.direction
+    native.radius = curve.radius
+    native.yaw_rate = model.yaw_rate
+    native.forward, native.forward_left, native.forward_right = map(index, curve.ahead)
+    native.reverse, native.reverse_left, native.reverse_right = map(index, curve.back)
+    native.rotate_left, native.rotate_right = map(index, curve.spin)
+    native.forward_speed = straight_speed(curve.ahead[0])
+    native.reverse_speed = straight_speed(curve.back[0])
+    native.forward_arc_speed = arc_speed(curve.ahead[1], curve.ahead[2])
+    native.reverse_arc_speed = arc_speed(curve.back[1], curve.back[2])
+    return native

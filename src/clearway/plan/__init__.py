@@ -1,0 +1,5 @@
+"""Planners: how a team moves through its tours."""
+
+from clearway.plan.prioritised import PrioritisedPlanner, TeamParams
+
+__all__ = ["PrioritisedPlanner", "TeamParams"]

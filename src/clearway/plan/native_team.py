@@ -1,0 +1,104 @@
+"""A planning problem handed to the native core, and its answer read back."""
+
+from collections.abc import Sequence
+
+from clearway import _core
+from clearway.model import Piece, Pose, Problem, RobotType, Stop, Trajectory, to_ticks, wrap
+from clearway.motion import MODELS, MotionModel
+from clearway.motion.native import native_table
+from clearway.world.obstacles import native_body, native_statics
+
+COARSE_HEADINGS, FINE_HEADINGS = 16, 32
+
+
+class NativeTeam:
+    """Models and agents of a problem, in the problem's order."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        used = {robot.type for robot in problem.robots}
+        self.type_names = [name for name in problem.robot_types if name in used]
+        self.motion: dict[str, MotionModel] = {}
+        types = [problem.robot_types[name] for name in self.type_names]
+        reach = max(t.shape(loaded).circumradius for t in types for loaded in (False, True))
+        self.models = [self._model(robot_type, reach) for robot_type in types]
+        self.agents = [self._agent(i) for i in range(len(problem.robots))]
+
+    def _model(self, robot_type: RobotType, reach: float) -> _core.Model:
+        build = MODELS[robot_type.kinematics]
+        self.motion[robot_type.name] = build(robot_type, COARSE_HEADINGS)
+        site = self.problem.site
+        return _core.Model(
+            [native_body(robot_type.shape(loaded)) for loaded in (False, True)],
+            [native_statics(site, robot_type.name, loaded, reach) for loaded in (False, True)],
+            native_table(self.motion[robot_type.name]),
+            native_table(build(robot_type, FINE_HEADINGS)),
+            robot_type.clearance,
+        )
+
+    def _agent(self, index: int) -> _core.Agent:
+        robot = self.problem.robots[index]
+        state = self.problem.state_of(robot)
+        agent = _core.Agent()
+        agent.model = self.type_names.index(robot.type)
+        fixed = self.problem.fixed.get(robot.id)
+        prefix = fixed or state.committed
+        start = prefix.start if prefix else state.pose
+        agent.start = _core.Pose(*start)
+        agent.mode = -1
+        agent.ready = state.tick
+        agent.fixed = fixed is not None
+        loads = int(state.loaded)
+        if prefix:
+            agent.committed = self._timed(prefix, robot.type)
+        legs = []
+        for visit in self.problem.tours.get(robot.id, ()):
+            body = int(loads > 0)
+            legs.append(_core.Leg(_core.Pose(*visit.pose), to_ticks(visit.service), body))
+            loads += {"pick": 1, "drop": -1, None: 0}[visit.load]
+        agent.legs = [] if fixed else legs
+        return agent
+
+    def _timed(self, trajectory: Trajectory, type_name: str) -> list[_core.TimedPiece]:
+        numbers = {mode.name: i for i, mode in enumerate(self.motion[type_name].modes)}
+        out, tick, pose, body = [], 0, trajectory.start, 0
+        for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
+            if begin > tick:
+                out.append(
+                    _core.TimedPiece(tick, begin, _core.Pose(*pose), _core.Twist(0, 0, 0), -1, body)
+                )
+            body = int(piece.loaded)
+            mode = numbers.get(piece.mode or "", 0)
+            out.append(
+                _core.TimedPiece(
+                    begin, end, _core.Pose(*piece.start), _core.Twist(*piece.twist), mode, body
+                )
+            )
+            tick, pose = end, piece.end
+        return out
+
+    def trajectory(self, index: int, tour: _core.TourResult) -> Trajectory:
+        """Return a robot's trajectory from the core's answer."""
+        robot = self.problem.robots[index]
+        state = self.problem.state_of(robot)
+        names = [mode.name for mode in self.motion[robot.type].modes]
+        pieces: list[Piece] = []
+        timing: list[tuple[int, int]] = []
+        start = state.pose
+        if state.committed:
+            start = state.committed.start
+            pieces += state.committed.pieces
+            timing += state.committed.timing
+        for native in tour.pieces:
+            if native.mode < 0:
+                continue
+            pose = Pose(native.start.x, native.start.y, wrap(native.start.theta))
+            twist = (native.twist.a, native.twist.b, native.twist.c)
+            pieces.append(Piece(len(pieces), names[native.mode], pose, twist, bool(native.body)))
+            timing.append((native.begin, native.end))
+        stops = tuple(Stop(stop.leg, stop.arrive, stop.leave) for stop in tour.stops)
+        return Trajectory(robot.id, start, tuple(pieces), tuple(timing), stops)
+
+    def ids(self, indices: Sequence[int]) -> tuple[str, ...]:
+        """Return the robots' ids at those positions."""
+        return tuple(self.problem.robots[i].id for i in indices)

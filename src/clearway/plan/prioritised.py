@@ -1,0 +1,136 @@
+"""Prioritised planning with soft search, rip-up and restarts, in the native core."""
+
+from clearway import _core
+from clearway.model import Plan, Problem, Status
+from clearway.motion import MODELS
+from clearway.plan.bounds import lower_bounds
+from clearway.plan.native_team import NativeTeam
+from clearway.protocols import Budget, Progress
+
+TeamParams = _core.TeamParams
+
+
+class PrioritisedPlanner:
+    """Plans robots one after another, shortest tour first; each avoids those before it.
+
+    A robot that finds no way runs a soft search that may run into others at a price; those
+    it hits are planned anew. Too many of these end a round, and the next begins with another
+    order. Every motion is checked continuously against true footprints.
+
+    References
+    ----------
+    Erdmann, M., Lozano-Perez, T. (1987). On multiple moving objects. Algorithmica 2.
+    Phillips, M., Likhachev, M. (2011). SIPP: safe interval path planning for dynamic
+    environments. ICRA.
+    """
+
+    def __init__(self, params: TeamParams | None = None) -> None:
+        self.params = params or TeamParams()
+
+    def unsupported(self, problem: Problem) -> tuple[str, ...]:
+        """Return what in the problem this planner cannot take."""
+        reasons = []
+        for name in {robot.type for robot in problem.robots}:
+            robot_type = problem.robot_types[name]
+            if robot_type.kinematics not in MODELS:
+                reasons.append(
+                    f"robot type {name}: no motion model for {robot_type.kinematics} robots; "
+                    f"known: {', '.join(MODELS)}"
+                )
+            if robot_type.limits.acceleration or robot_type.limits.deceleration:
+                reasons.append(
+                    f"robot type {name}: acceleration limits are not planned for; remove them"
+                )
+        for robot in problem.robots:
+            if robot.start_speed:
+                reasons.append(f"robot {robot.id}: a start in motion is not planned for")
+            for visit in problem.tours.get(robot.id, ()):
+                if visit.together:
+                    reasons.append(
+                        f"robot {robot.id}, task {visit.task}: visits together are not planned for"
+                    )
+        return tuple(sorted(reasons))
+
+    def __call__(
+        self,
+        problem: Problem,
+        budget: Budget,
+        seed: int,
+        progress: Progress | None = None,
+    ) -> Plan:
+        """Return a plan; see `clearway.protocols.Planner`."""
+        team = NativeTeam(problem)
+        answer = _core.plan_team(
+            team.models,
+            team.agents,
+            self.params,
+            seed,
+            -1 if budget.expansions is None else budget.expansions,
+            budget.seconds,
+            progress,
+        )
+        trajectories = {}
+        for i, robot in enumerate(problem.robots):
+            if answer.planned[i] and team.agents[i].legs:
+                trajectories[robot.id] = team.trajectory(i, answer.tours[i])
+        trajectories.update(problem.fixed)
+        bounds = lower_bounds(problem)
+        concerned = team.ids(answer.concerned)
+        status, reason = _verdict(problem, answer, concerned)
+        return Plan(
+            status=status,
+            reason=reason,
+            concerned=concerned,
+            trajectories=trajectories,
+            tours=problem.tours,
+            assignment={
+                robot.id: _tasks_in_order(problem, robot.id) for robot in problem.robots
+            },
+            lower_bound=bounds.seconds,
+            cost_lower_bound=bounds.metres,
+            counters={
+                "expansions": answer.expansions,
+                "searches": answer.searches,
+                "rip_ups": answer.rip_ups,
+                "restarts": answer.restarts,
+                "interrupted": int(answer.interrupted),
+            },
+        )
+
+
+def _tasks_in_order(problem: Problem, robot: str) -> tuple[str, ...]:
+    tasks = (visit.task for visit in problem.tours.get(robot, ()))
+    return tuple(dict.fromkeys(task for task in tasks if task is not None))
+
+
+def _walled_in(problem: Problem, robot_id: str) -> bool:
+    """Whether even the inscribed circle of the body has no way through the robot's tour."""
+    from clearway.world.reach import BodyReach
+
+    robot = next(robot for robot in problem.robots if robot.id == robot_id)
+    robot_type = problem.robot_types[robot.type]
+    reach = BodyReach(problem.site, robot.type, False, robot_type.footprint)
+    poses = [problem.state_of(robot).pose, *(v.pose for v in problem.tours[robot_id])]
+    components = {reach.component(pose) for pose in poses}
+    return len(components) > 1 or 0 in components
+
+
+def _verdict(
+    problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...]
+) -> tuple[Status, str | None]:
+    names = ", ".join(concerned)
+    if answer.status == _core.TeamStatus.SOLVED:
+        return Status.SOLVED, None
+    if answer.interrupted:
+        return Status.STOPPED, f"interrupted; not planned: {names}"
+    if answer.status == _core.TeamStatus.STUCK:
+        if any(_walled_in(problem, robot) for robot in concerned):
+            return Status.INFEASIBLE, (
+                f"{names} is walled in: with nobody else on the site there is no way even for "
+                "the largest disc inside its body"
+            )
+        return Status.STOPPED, (
+            f"no plan on this lattice for {names}, alone on the site and with 32 headings; "
+            "widen the passage or move the goal"
+        )
+    return Status.STOPPED, f"the budget ended; not planned: {names}"
