@@ -1,0 +1,187 @@
+// The robots on the floor: ways ahead, marks, bodies with their ids.
+
+const channels = (colour) => [1, 3, 5].map((i) => parseInt(colour.slice(i, i + 2), 16));
+
+/** Relative luminance of a colour "#rrggbb", as WCAG defines it. */
+function luminance(colour) {
+  const [r, g, b] = channels(colour).map((value) => {
+    const share = value / 255;
+    return share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+  });
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+}
+
+/** White or near-black, whichever reads better on a colour. */
+function inkOn(colour) {
+  const light = luminance(colour);
+  return 1.05 / (light + 0.05) > (light + 0.05) / 0.056 ? "#ffffff" : "#111418";
+}
+
+/** A robot's colour for thin lines: moved away from the floor's until it stands out 3 : 1. */
+function lineColour(colour, ink) {
+  const floor = luminance(ink.floor);
+  const goal = floor > 0.2 ? 0 : 255;
+  const hex = (value) => Math.round(value).toString(16).padStart(2, "0");
+  let mixed = colour;
+  for (let share = 0.05; share < 1; share += 0.05) {
+    const [high, low] = [floor, luminance(mixed)].sort((a, b) => b - a);
+    if ((high + 0.05) / (low + 0.05) >= 3) break;
+    mixed = `#${channels(colour).map((v) => hex(v + share * (goal - v))).join("")}`;
+  }
+  return mixed;
+}
+
+/** The way to the next visit; all of the way for the chosen robot. */
+function drawWay(ctx, camera, ink, robot, time, isChosen) {
+  const visit = robot.visits[visitAt(robot, time)];
+  const until = isChosen || !visit || visit.arrive === null ? duration : visit.arrive / 1000;
+  ctx.beginPath();
+  ctx.moveTo(...poseAt(robot, time));
+  for (let k = sampleAt(robot, time) + 1; k < robot.t.length && robot.t[k] < until; k += 1) {
+    ctx.lineTo(robot.x[k], robot.y[k]);
+  }
+  ctx.lineTo(...poseAt(robot, until));
+  ctx.strokeStyle = lineColour(robot.colour, ink);
+  ctx.globalAlpha = isChosen ? 0.9 : 0.55;
+  ctx.lineWidth = (isChosen ? 2.6 : 1.8) / camera.scale;
+  ctx.lineJoin = "round";
+  ctx.stroke();
+  ctx.globalAlpha = 1;
+}
+
+function diamond(ctx, x, y, r) {
+  ctx.beginPath();
+  ctx.moveTo(x, y + r);
+  ctx.lineTo(x + r, y);
+  ctx.lineTo(x, y - r);
+  ctx.lineTo(x - r, y);
+  ctx.closePath();
+}
+
+function drawMarks(ctx, camera, ink, robot, time) {
+  const r = clamp(0.45, 3 / camera.scale, 7 / camera.scale);
+  ctx.lineWidth = 1.5 / camera.scale;
+  const line = lineColour(robot.colour, ink);
+  ctx.strokeStyle = line;
+  ctx.fillStyle = ink.floor;
+  ctx.beginPath();
+  ctx.arc(robot.start[0], robot.start[1], r, 0, 2 * Math.PI);
+  ctx.fill();
+  ctx.stroke();
+  const next = visitAt(robot, time);
+  robot.visits.forEach((visit, index) => {
+    diamond(ctx, visit.pose[0], visit.pose[1], 1.15 * r);
+    ctx.fillStyle = index < next ? ink.floor : robot.colour;
+    ctx.fill();
+    ctx.strokeStyle = index < next ? line : ink.text;
+    ctx.stroke();
+  });
+}
+
+function tracePart(ctx, form) {
+  ctx.beginPath();
+  if (form.radius) {
+    ctx.arc(0, 0, form.radius, 0, 2 * Math.PI);
+    return;
+  }
+  for (const part of form.parts) {
+    part.forEach(([u, v], i) => (i ? ctx.lineTo(u, v) : ctx.moveTo(u, v)));
+    ctx.closePath();
+  }
+}
+
+/** Front, back and half width of a body (m). */
+function extentOf(form) {
+  if (form.radius) return [form.radius, -form.radius, form.radius];
+  const corners = form.parts.flat();
+  const xs = corners.map((p) => p[0]);
+  return [Math.max(...xs), Math.min(...xs), Math.max(...corners.map((p) => Math.abs(p[1])))];
+}
+
+function drawBody(ctx, camera, ink, robot, time, isChosen) {
+  const [x, y, heading] = poseAt(robot, time);
+  const loaded = isCarrying(robot, time);
+  const form = loaded ? robot.shape.loaded : robot.shape.body;
+  const [front, back, half] = extentOf(form);
+  const pixel = 1 / camera.scale;
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.rotate(heading);
+  tracePart(ctx, form);
+  if (isChosen) {
+    ctx.strokeStyle = ink.focus;
+    ctx.lineWidth = 7 * pixel;
+    ctx.stroke();
+  }
+  // Parts of one body overlap: outline first, then fill, leaves no inner edges.
+  ctx.strokeStyle = ink.text;
+  ctx.lineWidth = 2.4 * pixel;
+  ctx.lineJoin = "round";
+  ctx.stroke();
+  ctx.fillStyle = robot.colour;
+  ctx.fill("nonzero");
+  const mark = inkOn(robot.colour);
+  ctx.fillStyle = mark;
+  const depth = Math.min(0.22 * (front - back), 0.5 * half);
+  ctx.beginPath();
+  ctx.moveTo(front - 0.3 * depth, 0);
+  ctx.lineTo(front - 1.3 * depth, depth);
+  ctx.lineTo(front - 1.3 * depth, -depth);
+  ctx.closePath();
+  ctx.fill();
+  if (loaded) {
+    ctx.strokeStyle = mark;
+    ctx.lineWidth = Math.max(1.5 * pixel, 0.05);
+    const [near, far] = [back + 0.12 * (front - back), front - 1.6 * depth];
+    ctx.strokeRect(near, -0.72 * half, far - near, 1.44 * half);
+  }
+  ctx.restore();
+}
+
+/** The id on the body where it fits, otherwise beside it; the mode below the chosen one. */
+function drawName(ctx, camera, ink, robot, time, isChosen) {
+  const pose = poseAt(robot, time);
+  const form = robot.shape.body;
+  const [front, back, half] = extentOf(form);
+  const middle = (front + back) / 2 - 0.08 * (front - back);
+  const [x, y] = camera.toScreen(
+    pose[0] + middle * Math.cos(pose[2]), pose[1] + middle * Math.sin(pose[2]),
+  );
+  const name = shorten(robot.id, 14);
+  const size = clamp(half * camera.scale * 0.9, 10, 15);
+  ctx.font = `650 ${size}px ${ink.font}`;
+  ctx.textAlign = "center";
+  ctx.textBaseline = "middle";
+  const room = 1.7 * Math.min(half, (front - back) / 2) * camera.scale;
+  const above = reach(form) * camera.scale;
+  if (ctx.measureText(name).width < room && size < room) {
+    ctx.fillStyle = inkOn(robot.colour);
+    ctx.fillText(name, x, y);
+  } else {
+    haloText(ctx, ink, name, x, y - Math.min(above, 0.5 * (half * camera.scale + above)) - 8);
+  }
+  if (isChosen) {
+    ctx.font = `500 12px ${ink.font}`;
+    haloText(ctx, ink, doingAt(robot, time), x, y + above + 11);
+  }
+}
+
+function haloText(ctx, ink, text, x, y) {
+  ctx.strokeStyle = ink.plate;
+  ctx.lineWidth = 3.5;
+  ctx.lineJoin = "round";
+  ctx.strokeText(text, x, y);
+  ctx.fillStyle = ink.text;
+  ctx.fillText(text, x, y);
+}
+
+function drawRobots(ctx, camera, ink, time, chosen, ratio) {
+  camera.useMetres(ctx, ratio);
+  const order = robots.filter((robot) => robot !== chosen);
+  if (chosen) order.push(chosen);
+  for (const robot of order) drawWay(ctx, camera, ink, robot, time, robot === chosen);
+  for (const robot of order) drawMarks(ctx, camera, ink, robot, time);
+  for (const robot of order) drawBody(ctx, camera, ink, robot, time, robot === chosen);
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  for (const robot of order) drawName(ctx, camera, ink, robot, time, robot === chosen);
+}

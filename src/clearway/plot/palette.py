@@ -1,0 +1,17 @@
+"""Colours that people with any colour vision can tell apart."""
+
+# Okabe, M. and Ito, K. (2008). Color Universal Design. Without black and with yellow last,
+# which is faint on white.
+ROBOT_COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#F0E442")
+# The same, darkened where thin lines on white need it.
+_LINES = ("#0072B2", "#B87A00", "#007F5C", "#B0568A", "#2E8FC4", "#C05400", "#8F8500")
+
+
+def robot_colour(index: int) -> str:
+    """Return the colour of the robot at ``index`` in its fleet; colours repeat after seven."""
+    return ROBOT_COLOURS[index % len(ROBOT_COLOURS)]
+
+
+def line_colour(index: int) -> str:
+    """Return the robot's colour for thin lines on white."""
+    return _LINES[index % len(_LINES)]
