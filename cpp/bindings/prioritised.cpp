@@ -105,6 +105,8 @@ void bind_prioritised(nb::module_& m) {
   nb::class_<SearchParams>(m, "SearchParams", "Parameters of the single-robot search.")
       .def(nb::init<>())
       .def_rw("weight", &SearchParams::weight)
+      .def_rw("tail_weight", &SearchParams::tail_weight)
+      .def_rw("rest_factor", &SearchParams::rest_factor)
       .def_rw("soft_weight", &SearchParams::soft_weight)
       .def_rw("cell", &SearchParams::cell)
       .def_rw("shot_words", &SearchParams::shot_words);

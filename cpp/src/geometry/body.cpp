@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace clearway {
 
@@ -14,7 +16,7 @@ double distance_to_segment(Point p, Point a, Point b) {
   const Point ab = b - a;
   const double length2 = dot(ab, ab);
   const double t = length2 > 0.0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-  return std::hypot(p.x - a.x - t * ab.x, p.y - a.y - t * ab.y);
+  return length(p - Point{a.x + t * ab.x, a.y + t * ab.y});
 }
 
 // Circles along the longer side of a convex part's bounding box.
@@ -73,9 +75,9 @@ double Convex::gap(const Segment& s) const {
     best = std::max(best, std::min(dot(normals_[i], s.p), dot(normals_[i], s.q)) - offsets_[i]);
   }
   const Point d = s.q - s.p;
-  const double length = std::hypot(d.x, d.y);
-  if (length < 1e-12) return gap(s.p);
-  const Point normal{d.y / length, -d.x / length};
+  const double extent = length(d);
+  if (extent < 1e-12) return gap(s.p);
+  const Point normal{d.y / extent, -d.x / extent};
   double lo = kInfinity, hi = -kInfinity;
   for (const Point& v : vertices_) {
     const double h = dot(normal, v - s.p);
@@ -103,6 +105,10 @@ Body::Body(const std::vector<std::vector<Point>>& parts, double disc_radius) : d
     return;
   }
   for (const auto& vertices : parts) {
+    if (vertices.size() < 3 || vertices.size() > kMaxVertices) {
+      throw std::invalid_argument("a convex part needs 3 to 64 points, got " +
+                                  std::to_string(vertices.size()));
+    }
     parts_.emplace_back(vertices);
     for (const Point& v : vertices) circumradius_ = std::max(circumradius_, std::hypot(v.x, v.y));
     inradius_ = std::max(inradius_, -parts_.back().gap(Point{0.0, 0.0}));
@@ -112,28 +118,24 @@ Body::Body(const std::vector<std::vector<Point>>& parts, double disc_radius) : d
 
 namespace {
 
-// Separating-axis gap of two convex parts; `a` placed by fa, `b` by fb.
-double gap(const Convex& a, const Frame& fa, const Convex& b, const Frame& fb, double enough) {
+// Separating-axis gap of two convex parts, `b` placed by `seen` in the frame of `a`.
+double gap(const Convex& a, const Convex& b, const Frame& seen, double enough) {
   Point buffer[kMaxVertices];
-  const auto place = [&buffer](const Convex& from, const Frame& source, const Frame& target) {
-    const std::size_t n = std::min(from.vertices().size(), kMaxVertices);
-    for (std::size_t i = 0; i < n; ++i) {
-      buffer[i] = target.to_local(source.to_world(from.vertices()[i]));
-    }
-    return n;
+  const auto place = [&buffer](const std::vector<Point>& vertices, const Frame& f) {
+    for (std::size_t i = 0; i < vertices.size(); ++i) buffer[i] = f.to_world(vertices[i]);
   };
-  const std::size_t nb = place(b, fb, fa);
-  const double first = a.separation(buffer, nb, enough);
+  place(b.vertices(), seen);
+  const double first = a.separation(buffer, b.vertices().size(), enough);
   if (first >= enough) return first;
-  const std::size_t na = place(a, fa, fb);
-  return std::max(first, b.separation(buffer, na, enough));
+  place(a.vertices(), inverse(seen));
+  return std::max(first, b.separation(buffer, a.vertices().size(), enough));
 }
 
 }  // namespace
 
 double gap(const Body& a, const Frame& fa, const Body& b, const Frame& fb, double enough) {
   if (a.parts().empty() && b.parts().empty()) {
-    return std::hypot(fa.x - fb.x, fa.y - fb.y) - a.disc() - b.disc();
+    return length({fa.x - fb.x, fa.y - fb.y}) - a.disc() - b.disc();
   }
   double least = kInfinity;
   if (a.parts().empty() || b.parts().empty()) {
@@ -146,8 +148,9 @@ double gap(const Body& a, const Frame& fa, const Body& b, const Frame& fb, doubl
     }
     return least;
   }
+  const Frame seen = relative(fa, fb);
   for (const Convex& pa : a.parts()) {
-    for (const Convex& pb : b.parts()) least = std::min(least, gap(pa, fa, pb, fb, enough));
+    for (const Convex& pb : b.parts()) least = std::min(least, gap(pa, pb, seen, enough));
   }
   return least;
 }
@@ -164,7 +167,7 @@ double gap(const Body& body, const Frame& f, const Segment& s) {
 
 double gap(const Body& body, const Frame& f, const Circle& disc) {
   const Point centre = f.to_local({disc.x, disc.y});
-  if (body.parts().empty()) return std::hypot(centre.x, centre.y) - body.disc() - disc.r;
+  if (body.parts().empty()) return length(centre) - body.disc() - disc.r;
   double least = kInfinity;
   for (const Convex& part : body.parts()) least = std::min(least, part.gap(centre) - disc.r);
   return least;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <queue>
 
 namespace clearway {
 
@@ -17,7 +16,7 @@ GoalDistance::GoalDistance(const Statics& statics, double radius, double goal_x,
   distance_.assign(num_cells, kUnreachable);
   // The field is a lower bound; give back what it and the cell's extent may take away.
   const double needed = std::max(0.0, radius - 0.75 * cell);
-  std::vector<bool> open(num_cells);
+  std::vector<std::uint8_t> open(num_cells);
   for (int iy = 0; iy < height_; ++iy) {
     for (int ix = 0; ix < width_; ++ix) {
       open[static_cast<std::size_t>(iy) * w + static_cast<std::size_t>(ix)] =
@@ -36,25 +35,29 @@ GoalDistance::GoalDistance(const Statics& statics, double radius, double goal_x,
       moves.push_back({dx, dy, static_cast<float>(cell * std::hypot(dx, dy))});
     }
   }
-  using Item = std::pair<float, std::int32_t>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+  // Buckets as wide as the shortest move: within one, order does not matter.
+  std::vector<std::vector<std::int32_t>> buckets(1);
+  const auto bucket_of = [cell](float d) { return static_cast<std::size_t>(d / cell); };
   const int gx = std::clamp(static_cast<int>((goal_x - box_.x0) / cell), 0, width_ - 1);
   const int gy = std::clamp(static_cast<int>((goal_y - box_.y0) / cell), 0, height_ - 1);
-  const auto goal = static_cast<std::int32_t>(gy * width_ + gx);
-  distance_[static_cast<std::size_t>(goal)] = 0.0F;
-  queue.push({0.0F, goal});
-  while (!queue.empty()) {
-    const auto [d, at] = queue.top();
-    queue.pop();
-    if (d > distance_[static_cast<std::size_t>(at)]) continue;
-    const int x = at % width_, y = at / width_;
-    for (const Move& m : moves) {
-      const int nx = x + m.dx, ny = y + m.dy;
-      if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-      const auto next = static_cast<std::size_t>(ny) * w + static_cast<std::size_t>(nx);
-      if (!open[next] || d + m.length >= distance_[next]) continue;
-      distance_[next] = d + m.length;
-      queue.push({d + m.length, static_cast<std::int32_t>(next)});
+  buckets[0].push_back(gy * width_ + gx);
+  distance_[static_cast<std::size_t>(buckets[0][0])] = 0.0F;
+  for (std::size_t b = 0; b < buckets.size(); ++b) {
+    for (std::size_t i = 0; i < buckets[b].size(); ++i) {
+      const std::int32_t at = buckets[b][i];
+      const float d = distance_[static_cast<std::size_t>(at)];
+      if (bucket_of(d) != b) continue;  // reached more cheaply meanwhile
+      const int x = at % width_, y = at / width_;
+      for (const Move& m : moves) {
+        const int nx = x + m.dx, ny = y + m.dy;
+        if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
+        const auto next = static_cast<std::size_t>(ny) * w + static_cast<std::size_t>(nx);
+        if (!open[next] || d + m.length >= distance_[next]) continue;
+        distance_[next] = d + m.length;
+        const std::size_t target = bucket_of(d + m.length);
+        if (target >= buckets.size()) buckets.resize(target + 1);
+        buckets[target].push_back(static_cast<std::int32_t>(next));
+      }
     }
   }
   // Poses of bodies close to obstacles may lie in cells that are not open: go on from the rim.

@@ -58,18 +58,22 @@ ConnectTable::ConnectTable(const MotionTable& table, const Objective& objective)
   for (const Connection& c : table.connections) radius = std::max(radius, c.radius);
   cell_ = radius / 6.0;
   half_ = 42;  // cells on each side of the goal: 7 radii
-  value_.assign(static_cast<std::size_t>(4 * half_ * half_ * kHeadings), -1.0F);
+  value_.assign(static_cast<std::size_t>(2 * half_ * half_ * kHeadings), -1.0F);
 }
 
 double ConnectTable::operator()(double x, double y, double turn) {
+  if (y < 0.0) {  // mirrored curves cost the same
+    y = -y;
+    turn = -turn;
+  }
   const int ix = static_cast<int>(std::floor(x / cell_)) + half_;
-  const int iy = static_cast<int>(std::floor(y / cell_)) + half_;
-  if (ix < 0 || iy < 0 || ix >= 2 * half_ || iy >= 2 * half_) return -1.0;
+  const int iy = static_cast<int>(y / cell_);
+  if (ix < 0 || ix >= 2 * half_ || iy >= half_) return -1.0;
   int it = static_cast<int>(std::lround(turn * kHeadings / kTau)) % kHeadings;
   if (it < 0) it += kHeadings;
-  float& value = value_[static_cast<std::size_t>((it * 2 * half_ + iy) * 2 * half_ + ix)];
+  float& value = value_[static_cast<std::size_t>((it * half_ + iy) * 2 * half_ + ix)];
   if (value < 0.0F) {
-    const Pose from{(ix - half_ + 0.5) * cell_, (iy - half_ + 0.5) * cell_, it * kTau / kHeadings};
+    const Pose from{(ix - half_ + 0.5) * cell_, (iy + 0.5) * cell_, it * kTau / kHeadings};
     connect(*table_, objective_, from, Pose{}, 1, scratch_);
     value = scratch_.empty() ? 0.0F : static_cast<float>(scratch_.front().cost);
   }

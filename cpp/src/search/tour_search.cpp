@@ -65,7 +65,7 @@ class TourRun {
 
   void prepare();
   double estimate(int leg, double x, double y, double theta);
-  double remaining(int leg, double x, double y, double theta);
+  double priority(const Node& node);
   void expand(std::int32_t index);
   void shoot(std::int32_t index);
   void launch(std::int32_t parent, std::int32_t edge, const Node& target, Ticks from, bool soft);
@@ -91,7 +91,8 @@ class TourRun {
   Ticks safe_until(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
   Ticks next_free(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
   bool conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
-                std::int32_t hits, int* track, Ticks* free_departure) const;
+                std::int32_t hits, int* track, Ticks last_departure = 0,
+                Ticks* free_departure = nullptr) const;
   std::int32_t collect(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
                        std::int32_t hits);
   std::int32_t collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
@@ -172,9 +173,13 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
   return std::max(way, exact);
 }
 
-double TourRun::remaining(int leg, double x, double y, double theta) {
-  if (leg >= static_cast<int>(legs_.size())) return 0.0;
-  return estimate(leg, x, y, theta) + tail_[static_cast<std::size_t>(leg)];
+// Cost so far plus weighted estimates; later legs weigh more, so that a search held up on one
+// leg does not try all variants of those before it.
+double TourRun::priority(const Node& node) {
+  if (node.leg >= static_cast<int>(legs_.size())) return node.cost;
+  const double here = estimate(node.leg, node.x, node.y, theta(node));
+  return node.cost + weight_ * here +
+         std::max(weight_, s_.params_.tail_weight) * tail_[static_cast<std::size_t>(node.leg)];
 }
 
 TourRun::Edge TourRun::edge_of(std::int32_t edge) const {
@@ -227,12 +232,28 @@ Ticks TourRun::next_free(const Body& body, const Frame& at, Ticks from, std::int
 }
 
 // Whether driving the edge from `departure` on runs into anybody; if so, whom, and the first
-// departure at which the place of that conflict is free of him.
-bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
-                       std::int32_t hits, int* track, Ticks* free_departure) const {
+// departure (no later than just past `last_departure`) at which the place of that conflict is
+// free of him.
+bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure, std::int32_t hits, int* track, Ticks last_departure,
+                       Ticks* free_departure) const {
   if (!q_.traffic || q_.traffic->empty()) return false;
   Frame at = from;
   double t = departure;
+  const auto meets = [&](const Traffic::Presence& who, const Mover& mover) {
+    const double when = q_.traffic->first_conflict(who, mover, required(who.track));
+    if (when < 0.0) return false;
+    *track = who.track;
+    if (free_departure) {
+      const double progress = (when - mover.begin) / mover.duration;
+      const Frame place = moved(mover.start, mover.twist.part(progress));
+      const auto offset = static_cast<Ticks>(when - departure);
+      const Ticks limit = last_departure >= kNever ? kNever : last_departure + offset;
+      const Ticks clear = q_.traffic->clear_after(who.track, body, place, departure + offset,
+                                                  required(who.track), limit);
+      *free_departure = clear >= kNever ? kNever : clear - offset;
+    }
+    return true;
+  };
   for (std::size_t i = 0; i < edge.size; ++i) {
     const Step& step = edge.steps[i];
     const int chunks =
@@ -240,34 +261,23 @@ bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ti
     const Twist part = step.twist.part(1.0 / chunks);
     const double duration = static_cast<double>(step.duration) / chunks;
     for (int c = 0; c < chunks; ++c) {
+      const Mover mover{&body, at, part, t, duration};
+      const double end = t + duration;
       for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
-        if (who.end < t || who.begin > t + duration || is_hit(hits, who.track)) continue;
-        const Mover mover{&body, at, part, t, duration};
-        const double when = q_.traffic->first_conflict(who, mover, required(who.track));
-        if (when < 0.0) continue;
-        *track = who.track;
-        if (free_departure) {
-          const Frame place = moved(at, part.part((when - t) / duration));
-          const Ticks clear = q_.traffic->clear_after(
-              who.track, body, place, static_cast<Ticks>(std::ceil(when)), required(who.track));
-          *free_departure =
-              clear >= kNever
-                  ? kNever
-                  : clear - static_cast<Ticks>(std::floor(when - departure));
-        }
-        return true;
+        if (who.end < t || who.begin > end || is_hit(hits, who.track)) continue;
+        if (meets(who, mover)) return true;
       }
       at = moved(at, part);
-      t += duration;
+      t = end;
     }
   }
   return false;
 }
 
-std::int32_t TourRun::collect(const Body& body, const Frame& from, const Edge& edge,
-                              Ticks departure, std::int32_t hits) {
+std::int32_t TourRun::collect(const Body& body, const Frame& from,
+                              const Edge& edge, Ticks departure, std::int32_t hits) {
   int track = 0;
-  while (conflict(body, from, edge, departure, hits, &track, nullptr)) {
+  while (conflict(body, from, edge, departure, hits, &track)) {
     hits_.push_back({track, hits});
     hits = static_cast<std::int32_t>(hits_.size()) - 1;
   }
@@ -332,9 +342,20 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
       push(child, arrival, departure);
       return;
     }
+    const Ticks t = arrival + service;
+    const double cost = parent.cost + target.cost;
+    const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
+    if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t,
+                                               cost, standing)) {
+      if (seen->end >= kNever || !q_.traffic) return;
+      const Ticks clear = next_free(body(body_leg(target.leg)), end, seen->end + 1, parent.hits);
+      if (clear >= kNever) return;
+      departure = std::max(departure + 1, clear - edge.duration - service);
+      continue;
+    }
     int track = 0;
     Ticks later = 0;
-    if (conflict(moving, start, edge, departure, parent.hits, &track, &later)) {
+    if (conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
       if (later >= kNever) return;
       departure = std::max(departure + 1, later);
       continue;
@@ -348,17 +369,6 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
         departure = std::max(departure + 1, clear - edge.duration);
         continue;
       }
-    }
-    const Ticks t = arrival + service;
-    const double cost = parent.cost + target.cost;
-    const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
-    if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t,
-                                               cost, standing)) {
-      if (seen->end >= kNever || !q_.traffic) return;
-      const Ticks clear = next_free(body(body_leg(target.leg)), end, seen->end + 1, parent.hits);
-      if (clear >= kNever) return;
-      departure = std::max(departure + 1, clear - edge.duration - service);
-      continue;
     }
     push(child, arrival, departure);
     return;
@@ -377,11 +387,11 @@ bool TourRun::push(Node child, Ticks arrival, Ticks departure) {
   child.cost += s_.objective_.time
                     ? departure - parent.t + service
                     : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond;
-  const double h = remaining(child.leg, child.x, child.y, theta(child));
-  if (!std::isfinite(h)) return false;
+  const double f = priority(child);
+  if (!std::isfinite(f)) return false;
   const auto index = static_cast<std::int32_t>(nodes_.size());
   nodes_.push_back(child);
-  open_.push_back({child.cost + weight_ * h, index});
+  open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end());
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
   // Nothing can come to rest earlier than this, so nothing better is left to find.

@@ -160,6 +160,9 @@ double Statics::gap(const Body& body, const Frame& f) const {
 bool Statics::clear(const Body& body, const Frame& start, const Twist& motion, double required,
                     double slack) const {
   const double travel = motion.length() + std::abs(motion.c) * body.circumradius();
+  // The far end is the likeliest to be blocked.
+  const Frame last = moved(start, motion);
+  if (cover_gap(body, last) - required < 0.0 && gap(body, last) - required < -1e-7) return false;
   double progress = 0.0;
   while (true) {
     const Frame f = moved(start, motion.part(progress));

@@ -10,7 +10,7 @@ namespace {
 constexpr double kTile = 2.5;
 constexpr double kChunk = 1.0;   // longest stretch of path marked at once (m)
 constexpr Ticks kSlot = 512;
-constexpr Ticks kMarch = 20;     // coarsest step when waiting for somebody to get clear
+constexpr Ticks kMarch = 50;     // coarsest step when waiting for somebody to get clear
 
 }  // namespace
 
@@ -43,7 +43,7 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
 Track::Sight Track::at(double tick) const {
   if (tick >= settled()) {
     const int body = pieces_.empty() ? 0 : pieces_.back().body;
-    return {frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], kNever};
+    return {frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], kNever, gone_};
   }
   const double slot = std::max(0.0, tick) / kSlot;
   auto i = static_cast<std::size_t>(slot_[static_cast<std::size_t>(slot)]);
@@ -51,8 +51,8 @@ Track::Sight Track::at(double tick) const {
   const TimedPiece& p = pieces_[i];
   const Body* body = &(*bodies_)[static_cast<std::size_t>(p.body)];
   const double until = changes_shape_ ? p.end : kNever;
-  if (p.mode < 0 || tick <= p.begin) return {frames_[i], body, until};
-  return {moved(frames_[i], p.twist.part((tick - p.begin) / (p.end - p.begin))), body, until};
+  if (p.mode < 0) return {frames_[i], body, until, p.end};
+  return {moved(frames_[i], p.twist.part((tick - p.begin) / (p.end - p.begin))), body, until, 0};
 }
 
 Traffic::Traffic(const Box& box, double radius, double reach, double gap)
@@ -163,22 +163,21 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
   }
 }
 
-Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from,
-                           double required) const {
+Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from, double required,
+                           Ticks limit) const {
   const Track& track = *tracks_[static_cast<std::size_t>(id)];
-  const Ticks last = track.settled();
   Ticks t = from;
-  while (true) {
+  while (t <= limit && t < track.gone()) {
     const Track::Sight other = track.at(t);
     const double dx = at.x - other.frame.x, dy = at.y - other.frame.y;
     const double apart = body.circumradius() + other.body->circumradius() + required;
     if (dx * dx + dy * dy >= apart * apart) return t;
     const double missing = required - gap(body, at, *other.body, other.frame, required);
     if (missing <= 0.0) return t;
-    if (t >= last) return track.gone();
-    const double wait = track.speed() > 0.0 ? missing / track.speed() : kMarch;
-    t = std::min(last, t + std::max(kMarch, static_cast<Ticks>(wait)));
+    const auto wait = static_cast<Ticks>(track.speed() > 0.0 ? missing / track.speed() : 0.0);
+    t = std::max({t + kMarch, t + wait, other.still});
   }
+  return t >= track.gone() ? track.gone() : t;
 }
 
 }  // namespace clearway

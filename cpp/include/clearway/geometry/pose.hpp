@@ -17,6 +17,8 @@ inline Point operator+(Point a, Point b) { return {a.x + b.x, a.y + b.y}; }
 inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
+inline double length(Point a) { return std::sqrt(dot(a, a)); }
+
 inline double wrap(double angle) { return std::remainder(angle, kTau); }
 
 struct Pose {
@@ -40,11 +42,21 @@ struct Frame {
   }
 };
 
+// `b` as seen from `a`.
+inline Frame relative(const Frame& a, const Frame& b) {
+  const double dx = b.x - a.x, dy = b.y - a.y;
+  return {a.c * dx + a.s * dy, -a.s * dx + a.c * dy, a.c * b.c + a.s * b.s, a.c * b.s - a.s * b.c};
+}
+
+inline Frame inverse(const Frame& f) {
+  return {-f.c * f.x - f.s * f.y, f.s * f.x - f.c * f.y, f.c, -f.s};
+}
+
 // Whole body-frame displacement of a motion of constant direction and curvature.
 struct Twist {
   double a = 0.0, b = 0.0, c = 0.0;  // along x (m), along y (m), turn (rad)
 
-  double length() const { return std::hypot(a, b); }
+  double length() const { return std::sqrt(a * a + b * b); }
   Twist part(double progress) const { return {a * progress, b * progress, c * progress}; }
 };
 

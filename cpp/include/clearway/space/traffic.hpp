@@ -29,6 +29,7 @@ class Track {
     Frame frame;
     const Body* body;
     double until;  // the body keeps its shape at least to this tick
+    Ticks still;   // it stands at least to this tick
   };
   Sight at(double tick) const;
 
@@ -86,8 +87,10 @@ class Traffic {
   double first_conflict(const Presence& who, const Mover& mover, double required,
                         double* last_clear = nullptr) const;
 
-  // First tick from `from` on at which a body at rest is clear of a track it now conflicts with.
-  Ticks clear_after(int track, const Body& body, const Frame& at, Ticks from, double required) const;
+  // First tick from `from` on at which a body at rest is clear of a track it now conflicts with;
+  // one later than `limit` may be returned as soon as it is known to be.
+  Ticks clear_after(int track, const Body& body, const Frame& at, Ticks from, double required,
+                    Ticks limit = kNever) const;
 
  private:
   std::size_t tile(double x, double y) const;
