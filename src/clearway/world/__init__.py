@@ -1,0 +1,1 @@
+"""Where robots may be."""

@@ -1,0 +1,101 @@
+"""The exam that every assigner sits."""
+
+import math
+
+import numpy as np
+import pytest
+
+from clearway.assign import InsertionLocalSearch, InsertionParams, RandomAssigner
+from clearway.protocols import AssignmentProblem, check_routes, objective
+
+ASSIGNERS = {
+    "random, even": RandomAssigner(),
+    "random, free": RandomAssigner(even=False),
+    "insertion, even": InsertionLocalSearch(InsertionParams(rounds=5, even=True)),
+    "insertion, free": InsertionLocalSearch(InsertionParams(rounds=5)),
+}
+
+
+@pytest.fixture(params=ASSIGNERS)
+def assign(request):
+    return ASSIGNERS[request.param]
+
+
+def problem_of(m, n, seed=0, allowed=True):
+    """Points in a square: robots start at some, tasks are at others."""
+    rng = np.random.default_rng(seed)
+    starts, tasks = rng.uniform(0.0, 30.0, (m, 2)), rng.uniform(0.0, 30.0, (n, 2))
+    return AssignmentProblem(
+        robots=tuple(f"r{k}" for k in range(m)),
+        tasks=tuple(f"t{j}" for j in range(n)),
+        start_to_task=np.abs(starts[:, None] - tasks).sum(axis=-1),
+        task_to_task=np.abs(tasks[:, None] - tasks).sum(axis=-1),
+        start_turn=rng.uniform(0.0, math.pi, (m, n)),
+        task_turn=rng.uniform(0.0, math.pi, (n, n)),
+        allowed=np.array(allowed),
+    )
+
+
+@pytest.mark.parametrize(("m", "n"), [(4, 12), (3, 10), (1, 5), (5, 2), (3, 0), (1, 1)])
+def test_every_task_is_done_once(assign, m, n):
+    """As many tasks as robots or more or fewer, divisible or not, one robot, no task at all."""
+    problem = problem_of(m, n)
+    assert assign.unsupported(problem) == ()
+    routes = assign(problem, 1)
+    check_routes(problem, routes)
+    assert sorted(task for route in routes for task in route) == list(range(n))
+
+
+def test_routes_are_tuples_of_numbers(assign):
+    """One tuple per robot, holding plain integers that any file can store."""
+    routes = assign(problem_of(3, 7), 1)
+    assert isinstance(routes, tuple)
+    assert all(isinstance(route, tuple) for route in routes)
+    assert all(type(task) is int for route in routes for task in route)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_robots_do_only_what_they_may(assign, seed):
+    """Half of all pairs forbidden: the routes keep to the rest, or the refusal says why."""
+    rng = np.random.default_rng(seed)
+    allowed = rng.random((3, 6)) < 0.5
+    allowed[rng.integers(3, size=6), np.arange(6)] = True
+    problem = problem_of(3, 6, seed, allowed)
+    reasons = assign.unsupported(problem)
+    assert isinstance(reasons, tuple)
+    if reasons:
+        assert all(reasons)
+        with pytest.raises(ValueError, match="split"):
+            assign(problem, seed)
+    else:
+        check_routes(problem, assign(problem, seed))
+
+
+def test_tasks_kept_for_robots_go_to_them(assign):
+    """With one robot allowed per task there is one way to share out."""
+    owner = np.array([2, 0, 1, 1, 2, 0])
+    problem = problem_of(3, 6, allowed=owner == np.arange(3)[:, None])
+    routes = assign(problem, 4)
+    assert [sorted(route) for route in routes] == [[1, 5], [2, 3], [0, 4]]
+
+
+def test_the_same_seed_gives_the_same_routes(assign):
+    """Chance comes from the seed alone."""
+    assert assign(problem_of(4, 12), 7) == assign(problem_of(4, 12), 7)
+
+
+def test_numbering_of_tasks_does_not_matter(assign):
+    """Whatever numbers the tasks go by, they are all done, and done as legally."""
+    order = np.random.default_rng(2).permutation(9)
+    rng = np.random.default_rng(3)
+    allowed = rng.random((3, 9)) < 0.8
+    problem, other = problem_of(3, 9, 0, allowed), problem_of(3, 9, 0, allowed[:, order])
+    assert bool(assign.unsupported(problem)) == bool(assign.unsupported(other))
+    check_routes(other, assign(other, 0))
+
+
+def test_the_problem_is_left_as_it_was(assign):
+    """Assigning twice from one problem and once from its twin gives the same worth."""
+    problem = problem_of(3, 8)
+    first = objective(problem, assign(problem, 1)).value
+    assert objective(problem, assign(problem, 1)).value == first
