@@ -1,0 +1,1 @@
+"""The files: scenarios, plans and traces."""
