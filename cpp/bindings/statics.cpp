@@ -5,6 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bind.hpp"
+#include "clearway/search/geodesic.hpp"
 #include "clearway/search/goal_distance.hpp"
 
 namespace nb = nanobind;
@@ -23,23 +24,33 @@ std::vector<Point> to_points(const std::vector<std::array<double, 2>>& in) {
 }  // namespace
 
 void bind_statics(nb::module_& m) {
-  nb::class_<Statics>(m, "Statics", "Obstacles of one layer behind a distance field.")
+  nb::class_<Obstacles>(m, "Obstacles", "Edges, discs and outlines of one layer.")
       .def(
           "__init__",
-          [](Statics* self, const std::array<double, 4>& box,
+          [](Obstacles* self, const std::array<double, 4>& box,
              const std::vector<std::array<double, 4>>& segments,
              const std::vector<std::array<double, 3>>& discs,
              const std::vector<std::vector<std::array<double, 2>>>& solids,
-             const std::vector<std::array<double, 2>>& bounds, double reach) {
-            Obstacles o;
-            o.box = {box[0], box[1], box[2], box[3]};
-            for (const auto& s : segments) o.segments.push_back({{s[0], s[1]}, {s[2], s[3]}});
-            for (const auto& d : discs) o.discs.push_back({d[0], d[1], d[2]});
-            for (const auto& s : solids) o.solids.push_back(to_points(s));
-            o.bounds = to_points(bounds);
-            new (self) Statics(std::move(o), reach);
+             const std::vector<std::array<double, 2>>& bounds) {
+            new (self) Obstacles;
+            self->box = {box[0], box[1], box[2], box[3]};
+            for (const auto& s : segments) self->segments.push_back({{s[0], s[1]}, {s[2], s[3]}});
+            for (const auto& d : discs) self->discs.push_back({d[0], d[1], d[2]});
+            for (const auto& s : solids) self->solids.push_back(to_points(s));
+            self->bounds = to_points(bounds);
           },
-          "box"_a, "segments"_a, "discs"_a, "solids"_a, "bounds"_a, "reach"_a)
+          "box"_a, "segments"_a, "discs"_a, "solids"_a, "bounds"_a);
+  nb::class_<Geodesic>(m, "Geodesic", "Shortest ways of a disc among obstacles, any angle.")
+      .def(nb::init<const Obstacles&, double>(), "obstacles"_a, "radius"_a)
+      .def(
+          "__call__",
+          [](Geodesic& geodesic, const std::array<double, 2>& from,
+             const std::array<double, 2>& to) {
+            return geodesic({from[0], from[1]}, {to[0], to[1]});
+          },
+          "start"_a, "goal"_a, "Length of the shortest way (m); infinite where there is none.");
+  nb::class_<Statics>(m, "Statics", "Obstacles of one layer behind a distance field.")
+      .def(nb::init<Obstacles, double>(), "obstacles"_a, "reach"_a)
       .def("clearance", &Statics::clearance, "x"_a, "y"_a,
            "Lower bound of the distance to the nearest obstacle (m).")
       .def(

@@ -6,7 +6,7 @@ from clearway import _core
 from clearway.model import Piece, Pose, Problem, RobotType, Stop, Trajectory, to_ticks, wrap
 from clearway.motion import MODELS, MotionModel
 from clearway.motion.native import native_table
-from clearway.world.obstacles import native_body, native_statics
+from clearway.world.obstacles import native_body, native_obstacles
 
 COARSE_HEADINGS, FINE_HEADINGS = 16, 32
 
@@ -30,7 +30,10 @@ class NativeTeam:
         site = self.problem.site
         return _core.Model(
             [native_body(robot_type.shape(loaded)) for loaded in (False, True)],
-            [native_statics(site, robot_type.name, loaded, reach) for loaded in (False, True)],
+            [
+                _core.Statics(native_obstacles(site, robot_type.name, loaded), reach)
+                for loaded in (False, True)
+            ],
             native_table(self.motion[robot_type.name]),
             native_table(build(robot_type, FINE_HEADINGS)),
             robot_type.clearance,

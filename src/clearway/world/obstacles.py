@@ -16,14 +16,8 @@ def native_body(footprint: Footprint) -> _core.Body:
     return _core.Body([list(part) for part in footprint.parts], footprint.radius)
 
 
-def native_statics(site: Site, type_name: str, loaded: bool, reach: float) -> _core.Statics:
-    """Return what stands in the way of a robot type.
-
-    Parameters
-    ----------
-    reach
-        Largest circumradius (m) of any body that will be tested.
-    """
+def native_obstacles(site: Site, type_name: str, loaded: bool) -> _core.Obstacles:
+    """Return what stands in the way of a robot type."""
     xs = [x for x, _ in site.bounds]
     ys = [y for _, y in site.bounds]
     margin = OPEN_MARGIN if site.border == "open" else 0.0
@@ -38,10 +32,10 @@ def native_statics(site: Site, type_name: str, loaded: bool, reach: float) -> _c
             continue
         if obstacle.polygon is not None:
             walls += edges(obstacle.polygon)
-            solids.append(list(obstacle.polygon))
+            solids.append(obstacle.polygon)
         elif obstacle.wall is not None:
             walls.append(obstacle.wall)
         elif obstacle.disc is not None:
             discs.append(obstacle.disc)
     segments = [(*p, *q) for p, q in walls]
-    return _core.Statics(box, segments, discs, solids, list(bounds), reach)
+    return _core.Obstacles(box, segments, discs, solids, bounds)
