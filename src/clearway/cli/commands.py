@@ -1,0 +1,249 @@
+"""What each command does."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from clearway.cli.main import BAD_INPUT, DONE, INTERRUPTED, NO_ANSWER, WRONG
+from clearway.cli.progress import ProgressLine
+from clearway.cli.run_folder import write_run
+from clearway.formats.scenario_file import read_scenario
+from clearway.model import Scenario
+from clearway.protocols import Budget
+from clearway.systems.solve import Run, solve
+
+
+def _print_json(content: dict[str, Any]) -> None:
+    print(json.dumps(content, allow_nan=False))
+
+
+def _solve(arguments: argparse.Namespace, source: Path, scenario: Scenario) -> int:
+    out = Path(arguments.out)
+    out.mkdir(parents=True, exist_ok=True)
+    with ProgressLine(quiet=arguments.quiet) as line:
+        run = solve(
+            scenario,
+            budget=Budget(arguments.budget, arguments.expansions),
+            seed=arguments.seed,
+            progress=line.planning,
+            clock=time.process_time,
+        )
+        line.say("writing the run folder")
+        written = write_run(run, source, out)
+    code = _exit_code(run)
+    if arguments.json:
+        _print_json({**_summary(run), "files": [str(path) for path in written]})
+        return code
+    if not arguments.quiet:
+        print(_told(run))
+    print(out / "report.html" if (out / "report.html") in written else out / "plan.json")
+    return code
+
+
+def _exit_code(run: Run) -> int:
+    if run.interrupted:
+        return INTERRUPTED
+    if run.violations:
+        return WRONG
+    return DONE if run.plan else NO_ANSWER
+
+
+def _summary(run: Run) -> dict[str, Any]:
+    from clearway.metrics import to_json
+
+    return {
+        **to_json(run.metrics),
+        "scenario": run.record.scenario,
+        "seed": run.record.seed,
+        "reason": run.record.reason,
+        "concerned": list(run.plan.concerned),
+        "violations": [str(violation) for violation in run.violations],
+        "expansions": run.plan.counters["expansions"],
+        "timings": dict(run.record.timings),
+    }
+
+
+def _told(run: Run) -> str:
+    record, timings = run.record, run.record.timings
+    lines = [f"{record.scenario}: {record.status.value}"]
+    if record.reason:
+        lines[0] += f" ({record.reason})"
+    tasks = sum(len(done) for done in record.assignment.values())
+    lines.append(
+        f"  {len(record.robots)} robots, {tasks} tasks; all done after {record.makespan:.1f} s"
+    )
+    bound = f", lower bound {record.lower_bound:.1f} s" if record.lower_bound else ""
+    lines.append(f"  sum of costs {record.sum_of_costs:.1f} s{bound}")
+    least = run.metrics.least_separation
+    if least:
+        lines.append(
+            f"  least separation {least.metres:.3f} m ({least.first} and {least.second})"
+        )
+    lines.append(
+        f"  planned in {timings['plan_s']:.2f} s CPU ({run.plan.counters['expansions']:,} "
+        f"expansions), judged in {timings['judge_s']:.2f} s: "
+        + (f"{len(run.violations)} violations" if run.violations else "nothing wrong")
+    )
+    lines += [f"  {violation}" for violation in run.violations[:20]]
+    return "\n".join(lines)
+
+
+def run_solve(arguments: argparse.Namespace) -> int:
+    """Assign and plan a scenario file."""
+    source = Path(arguments.scenario)
+    return _solve(arguments, source, read_scenario(source))
+
+
+def scenario_folder() -> Path:
+    """Return the folder of the scenarios that come with Clearway."""
+    installed = Path(str(resources.files("clearway"))) / "scenarios"
+    in_tree = Path(__file__).parents[3] / "scenarios"
+    return installed if installed.is_dir() else in_tree
+
+
+def run_demo(arguments: argparse.Namespace) -> int:
+    """Solve the warehouse with 8 robots and 24 tasks."""
+    source = scenario_folder() / "warehouse-8x24.toml"
+    code = _solve(arguments, source, read_scenario(source))
+    if not arguments.json:
+        print(arguments.out)
+    return code
+
+
+def run_check(arguments: argparse.Namespace) -> int:
+    """Tell what is known of a scenario without solving it."""
+    from clearway.validate.legality import check_scenario
+
+    scenario = read_scenario(Path(arguments.scenario))
+    legality = check_scenario(scenario)
+    picture = None
+    if arguments.out:
+        from clearway.plot.picture import draw_site
+
+        out = Path(arguments.out)
+        out.mkdir(parents=True, exist_ok=True)
+        picture = out / "site.png"
+        marks = [
+            (*finding.place, str(number))
+            for number, finding in enumerate(legality.findings, start=1)
+            if finding.place
+        ]
+        tasks = [order.task for order in scenario.orders]
+        draw_site(
+            scenario.site, scenario.robot_types, scenario.robots, tasks, picture, marks=marks
+        )
+    if arguments.json:
+        _print_json(
+            {
+                "scenario": scenario.name,
+                "legal": bool(legality),
+                "findings": [
+                    {
+                        "kind": finding.kind,
+                        "severity": finding.severity,
+                        "key": finding.key,
+                        "text": finding.text,
+                        "robots": list(finding.robots),
+                        "place": finding.place,
+                        "depth": finding.depth,
+                        "proof": finding.proof,
+                    }
+                    for finding in legality.findings
+                ],
+                "clearances": dict(legality.clearances),
+                "reachable": {k: sorted(v) for k, v in legality.reachable.items()},
+            }
+        )
+        return DONE if legality else BAD_INPUT
+    if not arguments.quiet:
+        num_tasks = len(scenario.orders)
+        print(f"{scenario.name}: {len(scenario.robots)} robots, {num_tasks} tasks, "
+              f"{len(scenario.site.obstacles)} obstacles, {len(scenario.site.zones)} zones")
+        tightest = sorted(legality.clearances.items(), key=lambda item: item[1])[:5]
+        print("least clearances: " + ", ".join(f"{key} {gap:.3f} m" for key, gap in tightest))
+        full = sum(len(tasks) == num_tasks for tasks in legality.reachable.values())
+        print(f"{full} of {len(scenario.robots)} robots can reach every task they may do")
+    for number, finding in enumerate(legality.findings, start=1):
+        print(f"{number}. {finding.severity}: {finding.key}: {finding.text}")
+    if legality and not arguments.quiet:
+        print("nothing wrong is known of it")
+    if picture:
+        print(picture)
+    return DONE if legality else BAD_INPUT
+
+
+def run_validate(arguments: argparse.Namespace) -> int:
+    """Judge a plan file, or the plan of a run folder."""
+    from clearway.formats.plan_file import read_plan
+    from clearway.validate import validate_plan
+
+    path = Path(arguments.path)
+    path = path / "plan.json" if path.is_dir() else path
+    violations = validate_plan(read_plan(path))
+    if arguments.json:
+        _print_json(
+            {
+                "file": str(path),
+                "right": not violations,
+                "violations": [
+                    {
+                        "kind": v.kind,
+                        "robots": list(v.robots),
+                        "time": v.time,
+                        "place": list(v.place),
+                        "depth": v.depth,
+                        "text": v.text,
+                    }
+                    for v in violations
+                ],
+            }
+        )
+    else:
+        for violation in violations:
+            print(violation)
+        if not arguments.quiet:
+            print(f"{path}: " + (f"{len(violations)} wrong" if violations else "nothing wrong"))
+    return WRONG if violations else DONE
+
+
+def run_schema(arguments: argparse.Namespace) -> int:
+    """Print the JSON Schema of scenario files."""
+    from clearway.formats.scenario_file import scenario_schema
+
+    print(json.dumps(scenario_schema(), indent=None if arguments.json else 2))
+    return DONE
+
+
+def run_bench(arguments: argparse.Namespace) -> int:
+    """Plan a set of instances and write a row for each."""
+    from clearway.study.bench import bench_warehouse
+
+    with ProgressLine(quiet=arguments.quiet) as line:
+        table = bench_warehouse(
+            Path(arguments.out),
+            robots=arguments.robots,
+            tasks=arguments.tasks,
+            seeds=range(arguments.instances),
+            budget=Budget(arguments.budget, arguments.expansions),
+            tell=line.say,
+        )
+    if arguments.json:
+        _print_json(table.summary)
+    else:
+        print(table.markdown, file=sys.stdout)
+    return DONE
+
+
+COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
+    "bench": run_bench,
+    "check": run_check,
+    "demo": run_demo,
+    "schema": run_schema,
+    "solve": run_solve,
+    "validate": run_validate,
+}

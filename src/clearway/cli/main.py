@@ -1,0 +1,129 @@
+"""Arguments in, exit code out; every error is one line that names the mend."""
+
+import argparse
+import json
+import sys
+from collections.abc import Sequence
+from typing import Any, NoReturn
+
+DONE, WRONG, BAD_INPUT, NO_ANSWER, INTERRUPTED = 0, 1, 2, 3, 130
+
+
+class _Parser(argparse.ArgumentParser):
+    """Usage errors leave by exit code 2, as JSON where that was asked for."""
+
+    def error(self, message: str) -> NoReturn:
+        if "--json" in sys.argv[1:]:
+            print(json.dumps({"error": {"kind": "usage", "message": message}}))
+        else:
+            self.print_usage(sys.stderr)
+            print(f"clearway: error: {message}", file=sys.stderr)
+        raise SystemExit(BAD_INPUT)
+
+
+def _positive(text: str) -> float:
+    value = float(text)
+    if not 0.0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, got {text}")
+    return value
+
+
+def _count(text: str) -> int:
+    value = int(text)
+    if value < 0:
+        raise argparse.ArgumentTypeError(f"must be 0 or above, got {text}")
+    return value
+
+
+def _parser() -> argparse.ArgumentParser:
+    from importlib.metadata import version
+
+    parser = _Parser(
+        prog="clearway",
+        description="Assign work to a mixed robot fleet in a confined site, plan how all of it "
+        "moves without conflict, judge the plan and show it.",
+        epilog="exit codes: 0 done, 1 judged wrong, 2 bad input, 3 no complete answer, "
+        "130 interrupted",
+    )
+    parser.add_argument("--version", action="version", version=f"clearway {version('clearway')}")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+
+    talk = argparse.ArgumentParser(add_help=False)
+    talk.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
+    talk.add_argument("--quiet", action="store_true", help="no progress, no summary")
+    search = argparse.ArgumentParser(add_help=False)
+    search.add_argument("--seed", type=_count, help="repeatable choices (default: the scenario's)")
+    search.add_argument("--budget", type=_positive, metavar="SECONDS", help="stop after this long")
+    search.add_argument(
+        "--expansions", type=_count, metavar="N", help="stop after this much search; repeatable"
+    )
+
+    solve = commands.add_parser("solve", parents=[talk, search], help="assign and plan a scenario")
+    solve.add_argument("scenario", metavar="SCENARIO.toml")
+    solve.add_argument("--out", required=True, metavar="RUN/", help="folder for plan and report")
+    demo = commands.add_parser("demo", parents=[talk, search], help="a warehouse with 8 robots")
+    demo.add_argument("--out", default="demo-run", metavar="RUN/", help="default: demo-run")
+    check = commands.add_parser(
+        "check", parents=[talk], help="everything that can be known without solving"
+    )
+    check.add_argument("scenario", metavar="SCENARIO.toml")
+    check.add_argument("--out", metavar="DIR/", help="draw the site into this folder")
+    validate = commands.add_parser("validate", parents=[talk], help="judge a plan")
+    validate.add_argument("path", metavar="RUN/ or plan.json")
+    commands.add_parser("schema", parents=[talk], help="JSON Schema of scenario files")
+    bench = commands.add_parser(
+        "bench", parents=[talk, search], help="a set of instances, one row each"
+    )
+    bench.add_argument("name", choices=["warehouse"], help="warehouse: seeded sites of system A")
+    bench.add_argument("--out", required=True, metavar="DIR/", help="folder for rows and plans")
+    bench.add_argument("--robots", type=_count, default=16)
+    bench.add_argument("--tasks", type=_count, default=48)
+    bench.add_argument("--instances", type=_count, default=30, help="seeds 0 to N - 1")
+    return parser
+
+
+def _fail(arguments: argparse.Namespace, code: int, error: dict[str, Any]) -> int:
+    if arguments.json:
+        print(json.dumps({"error": {"code": code, **error}}))
+    else:
+        print(f"clearway: {error['kind']}: {error['message']}", file=sys.stderr)
+        for line in error.get("more", ()):
+            print(f"  {line}", file=sys.stderr)
+    return code
+
+
+def _described(error: Exception) -> dict[str, Any]:
+    """What is known of an input error: file, key, value and mend where it has them."""
+    told: dict[str, Any] = {"kind": "bad input", "message": str(error)}
+    for name in ("file", "key", "mend"):
+        if getattr(error, name, None) is not None:
+            told[name] = getattr(error, name)
+    if hasattr(error, "value"):
+        told["value"] = repr(error.value)[:200]
+    if hasattr(error, "findings"):
+        told["findings"] = [finding.text for finding in error.findings]
+        told["more"] = [f"{f.key}: {f.text}" for f in error.findings[1:20]]
+    if hasattr(error, "problems"):
+        told["problems"] = [str(problem) for problem in error.problems]
+        told["more"] = told["problems"][1:20]
+    return told
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command; return its exit code."""
+    arguments = _parser().parse_args(argv)
+    from clearway.cli import commands
+
+    try:
+        return commands.COMMANDS[arguments.command](arguments)
+    except KeyboardInterrupt:
+        return _fail(arguments, INTERRUPTED, {"kind": "interrupted", "message": "nothing written"})
+    except BrokenPipeError:
+        sys.stderr.close()
+        return DONE
+    except OSError as error:
+        place = error.filename or ""
+        message = f"{place}: {error.strerror or error}; check the path, its rights and free space"
+        return _fail(arguments, BAD_INPUT, {"kind": "file", "message": message, "file": place})
+    except ValueError as error:
+        return _fail(arguments, BAD_INPUT, _described(error))

@@ -1,0 +1,43 @@
+"""One line on the terminal that tells how far a long command is."""
+
+import sys
+import time
+from types import TracebackType
+
+
+class ProgressLine:
+    """Rewrites one line of stderr, from one second on; silent where stderr is no terminal."""
+
+    def __init__(self, quiet: bool) -> None:
+        self._begin = time.monotonic()
+        self._on = not quiet and sys.stderr.isatty()
+        self._width = 0
+
+    def __enter__(self) -> "ProgressLine":
+        """Start the clock."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Clear the line."""
+        if self._width:
+            print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)
+
+    def planning(self, planned: int, total: int, expansions: int) -> None:
+        """Show how many robots are planned."""
+        filled = round(24 * planned / max(total, 1))
+        bar = "#" * filled + "." * (24 - filled)
+        self.say(f"planning [{bar}] {planned}/{total} robots, {expansions:,} expansions")
+
+    def say(self, text: str) -> None:
+        """Show any text with the seconds so far."""
+        seconds = time.monotonic() - self._begin
+        if not self._on or seconds < 1.0:
+            return
+        line = f"{text}, {seconds:.0f} s"
+        print("\r" + line.ljust(self._width), end="", file=sys.stderr, flush=True)
+        self._width = max(self._width, len(line))

@@ -1,0 +1,1 @@
+"""Experiments and benchmarks: sets of instances, a row each."""

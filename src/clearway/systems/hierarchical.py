@@ -1,0 +1,72 @@
+"""System A: hierarchical scheduling of four-wheel-steering robots.
+
+Zhang, An, Niu, Bao, Wang, Wang, "An Enhanced Hybrid Metaheuristic for Hierarchical Scheduling
+in 4WIDS Multi-robot Systems under Confined Environments", Control Engineering Practice.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Literal
+
+from clearway.assign import InsertionLocalSearch, RandomAssigner, park
+from clearway.assign.insertion import InsertionParams
+from clearway.coordinate import System
+from clearway.model import Scenario, Visit
+from clearway.plan import PrioritisedPlanner, TeamParams
+from clearway.protocols import Weights
+
+
+@dataclass(frozen=True)
+class HierarchicalSettings:
+    """Choices of system A.
+
+    Parameters
+    ----------
+    assign
+        ``insertion`` with local search, or ``random`` (the paper's NTA).
+    even
+        Give every robot the same number of tasks, as the paper's encoding does.
+    max_distance, total_distance, turning
+        Weights of objective A-4 (eq. 2): longest route, all routes (per m), turns (per rad).
+    park
+        Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
+    objective
+        What the motion search minimises: ``time``, or the ``paper`` cost (eq. 21).
+    weight
+        Factor on the heuristic; larger plans faster and drives longer.
+    """
+
+    assign: Literal["insertion", "random"] = "insertion"
+    even: bool = False
+    max_distance: float = 1.0
+    total_distance: float = 1.0
+    turning: float = 1.0
+    park: Literal["blocking", "always", "never"] = "blocking"
+    objective: Literal["time", "paper"] = "time"
+    weight: float = 1.3
+
+
+def hierarchical(settings: HierarchicalSettings) -> System:
+    """Return system A as chosen."""
+    params = TeamParams()
+    search, objective = params.search, params.objective
+    search.weight = settings.weight
+    objective.time = settings.objective == "time"
+    params.search, params.objective = search, objective
+
+    def own_tasks(
+        scenario: Scenario, tours: dict[str, tuple[Visit, ...]]
+    ) -> dict[str, tuple[Visit, ...]]:
+        return park(scenario.site, scenario.robot_types, scenario.robots, tours, settings.park)
+
+    assigners = {
+        "insertion": InsertionLocalSearch(InsertionParams(even=settings.even)),
+        "random": RandomAssigner(even=settings.even),
+    }
+    return System(
+        name="hierarchical",
+        assign=assigners[settings.assign],
+        own_tasks=own_tasks,
+        plan=PrioritisedPlanner(params),
+        weights=Weights(settings.max_distance, settings.total_distance, settings.turning),
+        parameters=asdict(settings),
+    )
