@@ -145,8 +145,8 @@ void bind_prioritised(nb::module_& m) {
       .def_prop_ro("rip_ups", [](const TeamAnswer& a) { return a.result.rip_ups; })
       .def_prop_ro("restarts", [](const TeamAnswer& a) { return a.result.restarts; })
       .def_ro("interrupted", &TeamAnswer::interrupted);
-  m.def("plan_team", &plan_team, "models"_a, "agents"_a, "params"_a, "seed"_a,
-        "expansions"_a = -1, "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
+  m.def("plan_team", &plan_team, "models"_a, "agents"_a, "params"_a, "seed"_a, "expansions"_a = -1,
+        "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
         "Plan a team one after another; an interrupt or the budget ends it with what there is.");
 }
 

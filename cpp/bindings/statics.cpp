@@ -54,14 +54,14 @@ void bind_statics(nb::module_& m) {
       .def("clearance", &Statics::clearance, "x"_a, "y"_a,
            "Lower bound of the distance to the nearest obstacle (m).")
       .def(
-          "gap", [](const Statics& s, const Body& body, const Pose& p) { return s.gap(body, Frame(p)); },
+          "gap",
+          [](const Statics& s, const Body& body, const Pose& p) { return s.gap(body, Frame(p)); },
           "body"_a, "pose"_a, "Signed gap of a placed body (m).")
       .def(
           "clear",
           [](const Statics& s, const Body& body, const Pose& start, const Twist& motion,
-             double required, double slack) {
-            return s.clear(body, Frame(start), motion, required, slack);
-          },
+             double required,
+             double slack) { return s.clear(body, Frame(start), motion, required, slack); },
           "body"_a, "start"_a, "motion"_a, "required"_a = 0.0, "slack"_a = 0.0008,
           "Whether a body keeps the required gap all along a motion.");
   m.def(

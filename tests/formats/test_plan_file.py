@@ -48,13 +48,24 @@ def full_record() -> PlanRecord:
         ),
         "open",
     )
-    two = Footprint(parts=(
-        ((0.5, 0.3), (0.0, 0.3), (0.0, -0.3), (0.5, -0.3)), ((0.0, 0.1), (-0.5, 0.1), (-0.5, -0.1)),
-    ))
+    two = Footprint(
+        parts=(
+            ((0.5, 0.3), (0.0, 0.3), (0.0, -0.3), (0.5, -0.3)),
+            ((0.0, 0.1), (-0.5, 0.1), (-0.5, -0.1)),
+        )
+    )
     lift = RobotType(
-        "lift", two, "four_wheel",
-        Limits(1.5, 0.5, 0.57, 3.0, 1.0, 2.0), Footprint.rectangle(1.0, 1.0),
-        0.05, ("stop", "forward"), 0.5, 2, frozenset({"lift", "fork"}), Battery(3600.0, 0.3),
+        "lift",
+        two,
+        "four_wheel",
+        Limits(1.5, 0.5, 0.57, 3.0, 1.0, 2.0),
+        Footprint.rectangle(1.0, 1.0),
+        0.05,
+        ("stop", "forward"),
+        0.5,
+        2,
+        frozenset({"lift", "fork"}),
+        Battery(3600.0, 0.3),
     )
     puck = RobotType("puck", Footprint(radius=0.25), "holonomic", Limits(1.0))
     start = Pose(3.0, 3.0, 0.1)
@@ -138,9 +149,23 @@ def test_the_file_is_json_with_the_promised_keys() -> None:
 def test_a_foreign_plan_may_leave_out_what_is_optional() -> None:
     """Shapes, robots, samples and figures are enough; the assignment follows the visits."""
     content = json.loads(dump_plan(full_record()))
-    for key in ("pieces", "parameters", "timings", "assignment", "clearway", "scenario",
-                "system", "seed", "reason", "lower_bound", "cost", "cost_name",
-                "cost_lower_bound", "discrete_bound", "conflict_free_until"):
+    for key in (
+        "pieces",
+        "parameters",
+        "timings",
+        "assignment",
+        "clearway",
+        "scenario",
+        "system",
+        "seed",
+        "reason",
+        "lower_bound",
+        "cost",
+        "cost_name",
+        "cost_lower_bound",
+        "discrete_bound",
+        "conflict_free_until",
+    ):
         del content[key]
     del content["site"]["zones"], content["site"]["border"], content["site"]["obstacles"]
     del content["trajectories"]["r1"]["mode"]
@@ -184,8 +209,11 @@ NAN, MISSING = math.nan, object()
         ("robot_types.puck.kinematics", "hover", "robot_types.puck.kinematics"),
         ("robot_types.puck.modes", ["forward"], "robot_types.puck"),
         ("robot_types.puck.footprint.disc", 0, "robot_types.puck.footprint"),
-        ("robot_types.lift.loaded_footprint", [[0, 0], [1, 0], [0.1, 0.1], [0, 1]],
-         "robot_types.lift.loaded_footprint"),
+        (
+            "robot_types.lift.loaded_footprint",
+            [[0, 0], [1, 0], [0.1, 0.1], [0, 1]],
+            "robot_types.lift.loaded_footprint",
+        ),
         ("robot_types.lift.limits.speed", 0, "robot_types.lift.limits"),
         ("robot_types.lift.limits.yaw_rate", [1], "robot_types.lift.limits.yaw_rate"),
         ("robot_types.lift.limits", MISSING, "robot_types.lift.limits"),

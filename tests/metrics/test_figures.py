@@ -38,7 +38,10 @@ def small_record(**changes) -> PlanRecord:
     theta = np.array([0, 0, 0, 0, PI / 4, PI / 2, PI / 2, PI / 2])
     mode = ("forward",) * 2 + ("stop",) + ("rotate-left",) * 2 + ("forward",) + ("stop",) * 2
     fields = {
-        "scenario": "small", "system": "by hand", "seed": 0, "status": Status.SOLVED,
+        "scenario": "small",
+        "system": "by hand",
+        "seed": 0,
+        "status": Status.SOLVED,
         "site": Site(((0, 0), (20, 0), (20, 10), (0, 10))),
         "robot_types": {
             "cart": RobotType("cart", Footprint(radius=0.4), "differential", Limits(1.0))
@@ -49,7 +52,9 @@ def small_record(**changes) -> PlanRecord:
         },
         "tracks": {"a": Track(t, x, y, theta, mode)},
         "assignment": {"a": ("one", "two")},
-        "sum_of_costs": 12.0, "makespan": 12.0, "lower_bound": 10.0,
+        "sum_of_costs": 12.0,
+        "makespan": 12.0,
+        "lower_bound": 10.0,
     }
     return PlanRecord(**{**fields, **changes})
 
@@ -133,8 +138,11 @@ def test_creeping_below_five_micrometres_a_step_is_rest():
     """Rounding noise neither moves a robot nor delays its arrival."""
     noise = 4e-6
     track = Track(
-        np.array([0.0, 1.0, 1.1, 1.2]), np.array([0.0, 1.0, 1.0 + noise, 1.0]), np.zeros(4),
-        np.array([0.0, 0.0, noise, 0.0]), (None,) * 4,
+        np.array([0.0, 1.0, 1.1, 1.2]),
+        np.array([0.0, 1.0, 1.0 + noise, 1.0]),
+        np.zeros(4),
+        np.array([0.0, 0.0, noise, 0.0]),
+        (None,) * 4,
     )
     metrics = plan_metrics(small_record(tracks={"a": track}, tours={}), [], 0)
     assert metrics.per_robot[0].arrival == 1.0

@@ -100,8 +100,11 @@ class Rover:
             if rows[-1][0] == to_seconds(first):
                 rows.pop()
             rows += [
-                (to_seconds(first) + k / count * to_seconds(last - first), piece.at(k / count),
-                 piece.mode or "stop")
+                (
+                    to_seconds(first) + k / count * to_seconds(last - first),
+                    piece.at(k / count),
+                    piece.mode or "stop",
+                )
                 for k in range(count)
             ]
             rows.append((to_seconds(last), piece.end, "stop"))
@@ -153,14 +156,22 @@ def record_of(rovers: Sequence[Rover], exact: bool = True, **changes: object) ->
     """Return the record of what the rovers wrote down; ``exact`` keeps the pieces."""
     body = Footprint.rectangle(3.0, 2.0)
     carrier = RobotType(
-        "carrier", body, "four_wheel",
+        "carrier",
+        body,
+        "four_wheel",
         Limits(SPEED, yaw_rate=YAW_RATE, turning_radius=3.0),
-        loaded_footprint=Footprint.rectangle(3.4, 2.4), clearance=0.1, modes=FOUR_WHEEL_MODES,
+        loaded_footprint=Footprint.rectangle(3.4, 2.4),
+        clearance=0.1,
+        modes=FOUR_WHEEL_MODES,
     )
     arrivals = [to_seconds(rover.timing[-1][1]) if rover.timing else 0.0 for rover in rovers]
     fields: dict[str, object] = {
-        "scenario": "warehouse of 18 shelves", "system": "hierarchical", "seed": 7,
-        "status": Status.SOLVED, "site": warehouse(), "robot_types": {"carrier": carrier},
+        "scenario": "warehouse of 18 shelves",
+        "system": "hierarchical",
+        "seed": 7,
+        "status": Status.SOLVED,
+        "site": warehouse(),
+        "robot_types": {"carrier": carrier},
         "robots": tuple(rover.robot for rover in rovers),
         "tours": {rover.robot.id: tuple(rover.visits) for rover in rovers},
         "tracks": {rover.robot.id: rover.track for rover in rovers},
@@ -168,12 +179,16 @@ def record_of(rovers: Sequence[Rover], exact: bool = True, **changes: object) ->
             rover.robot.id: tuple(dict.fromkeys(v.task for v in rover.visits if v.task))
             for rover in rovers
         },
-        "sum_of_costs": sum(arrivals), "makespan": max(arrivals),
-        "lower_bound": 0.94 * sum(arrivals), "cost": 1.2 * sum(arrivals),
-        "cost_name": "time and mode switches", "cost_lower_bound": sum(arrivals),
+        "sum_of_costs": sum(arrivals),
+        "makespan": max(arrivals),
+        "lower_bound": 0.94 * sum(arrivals),
+        "cost": 1.2 * sum(arrivals),
+        "cost_name": "time and mode switches",
+        "cost_lower_bound": sum(arrivals),
         "discrete_bound": {"graph": "32 headings, 0.5 m cells", "value": 930.0, "factor": 1.05},
         "paths": {rover.robot.id: rover.trajectory for rover in rovers} if exact else {},
-        "parameters": {"plan": {"weight": 1.05, "headings": 32}}, "version": "0.1.0",
+        "parameters": {"plan": {"weight": 1.05, "headings": 32}},
+        "version": "0.1.0",
     }
     return PlanRecord(**{**fields, **changes})
 
@@ -186,13 +201,17 @@ def closest(record: PlanRecord, every: float = 0.5) -> list[tuple[str, str, floa
         track = record.tracks[robot.id]
         shape = Shape(record.robot_types[robot.type].footprint.parts[0])
         heading = np.interp(times, track.t, np.unwrap(track.theta))
-        bodies[robot.id] = np.array([
-            affinity.translate(affinity.rotate(shape, a, origin=(0, 0), use_radians=True), x, y)
-            for x, y, a in zip(
-                np.interp(times, track.t, track.x), np.interp(times, track.t, track.y), heading,
-                strict=True,
-            )
-        ])
+        bodies[robot.id] = np.array(
+            [
+                affinity.translate(affinity.rotate(shape, a, origin=(0, 0), use_radians=True), x, y)
+                for x, y, a in zip(
+                    np.interp(times, track.t, track.x),
+                    np.interp(times, track.t, track.y),
+                    heading,
+                    strict=True,
+                )
+            ]
+        )
     found = []
     for i, a in enumerate(record.robots):
         for b in record.robots[i + 1 :]:

@@ -8,14 +8,35 @@ import pytest
 from clearway.plot.palette import ROBOT_COLOURS
 
 READ = [
-    ("text", "page"), ("text", "surface"), ("text", "floor"), ("text", "chosen"),
-    ("text", "warn-back"), ("text", "bad-back"), ("muted", "page"), ("muted", "surface"),
-    ("muted", "chosen"), ("accent", "page"), ("accent", "surface"), ("on-accent", "accent"),
-    ("on-service", "service"), ("good", "good-back"), ("warn", "warn-back"), ("bad", "bad-back"),
-    ("zone-text", "floor"), ("page", "text"),
+    ("text", "page"),
+    ("text", "surface"),
+    ("text", "floor"),
+    ("text", "chosen"),
+    ("text", "warn-back"),
+    ("text", "bad-back"),
+    ("muted", "page"),
+    ("muted", "surface"),
+    ("muted", "chosen"),
+    ("accent", "page"),
+    ("accent", "surface"),
+    ("on-accent", "accent"),
+    ("on-service", "service"),
+    ("good", "good-back"),
+    ("warn", "warn-back"),
+    ("bad", "bad-back"),
+    ("zone-text", "floor"),
+    ("page", "text"),
 ]
-SEEN = [("drive", "surface"), ("turn-dark", "turn"), ("wait", "surface"), ("service", "surface"),
-        ("cursor", "surface"), ("focus", "page"), ("focus", "surface"), ("edge", "floor")]
+SEEN = [
+    ("drive", "surface"),
+    ("turn-dark", "turn"),
+    ("wait", "surface"),
+    ("service", "surface"),
+    ("cursor", "surface"),
+    ("focus", "page"),
+    ("focus", "surface"),
+    ("edge", "floor"),
+]
 
 
 def tokens(theme: str) -> dict[str, str]:

@@ -42,7 +42,11 @@ def test_sixteen_robots_for_five_minutes_stay_below_two_megabytes(
     slalom = Track(t, x, y, heading, ("forward",) * len(t))
     robots = tuple(replace(warehouse_record.robots[0], id=f"R{k}") for k in range(16))
     record = replace(
-        warehouse_record, robots=robots, tracks={r.id: slalom for r in robots}, tours={}, paths={},
+        warehouse_record,
+        robots=robots,
+        tracks={r.id: slalom for r in robots},
+        tours={},
+        paths={},
     )
     assert len(page_of(record).encode()) < 2_000_000
 
@@ -68,8 +72,11 @@ def test_a_load_is_aboard_from_the_end_of_pick_to_the_end_of_drop(
 def test_an_unfinished_plan_says_why_and_who(warehouse_record: PlanRecord) -> None:
     """The banner holds the reason and the robots whose visits are open."""
     record = replace(
-        warehouse_record, status=Status.INFEASIBLE, reason="R2 cannot leave its aisle",
-        tracks={k: v for k, v in warehouse_record.tracks.items() if k != "R2"}, paths={},
+        warehouse_record,
+        status=Status.INFEASIBLE,
+        reason="R2 cannot leave its aisle",
+        tracks={k: v for k, v in warehouse_record.tracks.items() if k != "R2"},
+        paths={},
     )
     page = page_of(record)
     assert "There is no plan that does all of this" in page

@@ -331,6 +331,7 @@ def test_ids_are_never_markup(
 
 def rename(record: PlanRecord, names: dict[str, str]) -> PlanRecord:
     """Return an unfinished plan whose robots, tasks, zones and scenario bear other names."""
+
     def new(old: str) -> str:
         return names.get(old, old)
 
@@ -340,10 +341,15 @@ def rename(record: PlanRecord, names: dict[str, str]) -> PlanRecord:
     }
     zones = tuple(replace(zone, name=HOSTILE[0]) for zone in record.site.zones)
     return replace(
-        record, scenario=HOSTILE[0], status=Status.STOPPED, reason=f"{HOSTILE[0]} found no way",
+        record,
+        scenario=HOSTILE[0],
+        status=Status.STOPPED,
+        reason=f"{HOSTILE[0]} found no way",
         site=replace(record.site, zones=zones),
         robots=tuple(replace(robot, id=new(robot.id)) for robot in record.robots),
-        tours=tours, tracks={new(k): v for k, v in record.tracks.items()}, paths={},
+        tours=tours,
+        tracks={new(k): v for k, v in record.tracks.items()},
+        paths={},
         assignment={new(k): (HOSTILE[0],) for k in record.assignment},
         parameters={HOSTILE[0]: HOSTILE[1]},
     )

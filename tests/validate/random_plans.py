@@ -25,17 +25,23 @@ from clearway.model import (
 )
 
 CELL = 12.0
-L_SHAPE = Footprint(parts=(
-    ((1.0, 0.5), (-1.0, 0.5), (-1.0, 0.0), (1.0, 0.0)),
-    ((0.0, 0.0), (-1.0, 0.0), (-1.0, -0.5), (0.0, -0.5)),
-))
+L_SHAPE = Footprint(
+    parts=(
+        ((1.0, 0.5), (-1.0, 0.5), (-1.0, 0.0), (1.0, 0.0)),
+        ((0.0, 0.0), (-1.0, 0.0), (-1.0, -0.5), (0.0, -0.5)),
+    )
+)
 TYPES = {
     "car": RobotType(
-        "car", Footprint.rectangle(2.0, 1.0, rear=0.5), "ackermann",
+        "car",
+        Footprint.rectangle(2.0, 1.0, rear=0.5),
+        "ackermann",
         Limits(speed=1.5, reverse_speed=0.75, turning_radius=1.5),
     ),
     "crab": RobotType(
-        "crab", Footprint.rectangle(1.6, 1.0), "four_wheel",
+        "crab",
+        Footprint.rectangle(1.6, 1.0),
+        "four_wheel",
         Limits(speed=1.0, yaw_rate=1.0 / 1.5, turning_radius=1.5),
     ),
     "cart": RobotType("cart", L_SHAPE, "differential", Limits(speed=1.0, yaw_rate=0.8)),
@@ -79,9 +85,7 @@ def random_leg(rng: np.random.Generator, kind: RobotType):
 
 def body(kind: RobotType, pose: Pose) -> shapely.Geometry:
     parts = [shapely.Polygon(part) for part in kind.footprint.parts]
-    shape = shapely.union_all(parts) if parts else shapely.Point(0, 0).buffer(
-        kind.footprint.radius
-    )
+    shape = shapely.union_all(parts) if parts else shapely.Point(0, 0).buffer(kind.footprint.radius)
     turned = affinity.rotate(shape, pose.theta, origin=(0, 0), use_radians=True)
     return affinity.translate(turned, pose.x, pose.y)
 
@@ -140,13 +144,16 @@ class Case:
                 Obstacle(disc=(x, y, size)),
                 Obstacle(wall=((x, y), (x + size, y - size))),
                 Obstacle(polygon=((x, y), (x + size, y), (x + size, y + size), (x, y + size))),
-                Obstacle(polygon=((x, y), (x + size, y), (x + size / 3, y + size / 3),
-                                  (x, y + size))),
+                Obstacle(
+                    polygon=((x, y), (x + size, y), (x + size / 3, y + size / 3), (x, y + size))
+                ),
             )
             shape = shapes[len(obstacles) % 4]
             area = (
-                shapely.Point(x, y).buffer(size) if shape.disc
-                else shapely.LineString(shape.wall) if shape.wall
+                shapely.Point(x, y).buffer(size)
+                if shape.disc
+                else shapely.LineString(shape.wall)
+                if shape.wall
                 else shapely.Polygon(shape.polygon)
             )
             if not area.intersects(taken):

@@ -115,10 +115,12 @@ def test_a_notched_polygon_has_room_in_its_notch() -> None:
 
 def test_parts_of_a_footprint_that_make_a_convex_one_are_joined() -> None:
     """Two halves of a rectangle are one part, so that no corner slips into their seam."""
-    halves = Footprint(parts=(
-        ((1.0, 0.5), (0.0, 0.5), (0.0, -0.5), (1.0, -0.5)),
-        ((0.0, 0.5), (-1.0, 0.5), (-1.0, -0.5), (0.0, -0.5)),
-    ))
+    halves = Footprint(
+        parts=(
+            ((1.0, 0.5), (0.0, 0.5), (0.0, -0.5), (1.0, -0.5)),
+            ((0.0, 0.5), (-1.0, 0.5), (-1.0, -0.5), (0.0, -0.5)),
+        )
+    )
     [part] = footprint_parts(halves)
     assert part.outline.area == pytest.approx(2.0)
     assert len(part.points) == 4

@@ -16,9 +16,7 @@ def kinds(plan) -> list[str]:
 
 
 @pytest.mark.parametrize(("factor", "right"), [(1.019, True), (1.021, False)])
-def test_two_percent_on_speed_and_yaw_rate(
-    by_hand: ModuleType, factor: float, right: bool
-) -> None:
+def test_two_percent_on_speed_and_yaw_rate(by_hand: ModuleType, factor: float, right: bool) -> None:
     """1.019 of the limit passes, 1.021 does not.
 
     Legs are long because their times are whole milliseconds: 10.19 m in 10 s.

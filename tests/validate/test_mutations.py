@@ -23,14 +23,23 @@ def body_mutants(case) -> Iterator[tuple[str, PlanRecord]]:
         inside, along = middle - 0.005 * out, np.array([-out[1], out[0]])
         x, y = inside + 0.2 * out
         yield "obstacle", case.with_obstacle(Obstacle(disc=(x, y, 0.2)))
-        yield "obstacle", case.with_obstacle(
-            Obstacle(wall=(tuple(inside), tuple(inside + 0.3 * out)))
+        yield (
+            "obstacle",
+            case.with_obstacle(Obstacle(wall=(tuple(inside), tuple(inside + 0.3 * out)))),
         )
         ring = [inside - 0.1 * along, inside + 0.1 * along, inside + 0.3 * out]
         yield "obstacle", case.with_obstacle(Obstacle(polygon=tuple(tuple(p) for p in ring)))
         # A horseshoe whose one end is in the body.
-        horseshoe = [(0, 0.02), (0, 0.1), (0.3, 0.1), (0.3, -0.1), (0, -0.1), (0, -0.02),
-                     (0.2, -0.02), (0.2, 0.02)]
+        horseshoe = [
+            (0, 0.02),
+            (0, 0.1),
+            (0.3, 0.1),
+            (0.3, -0.1),
+            (0, -0.1),
+            (0, -0.02),
+            (0.2, -0.02),
+            (0.2, 0.02),
+        ]
         ring = [inside + u * out + v * along for u, v in horseshoe]
         yield "obstacle", case.with_obstacle(Obstacle(polygon=tuple(tuple(p) for p in ring)))
         yield "bounds", pushed_bounds(case, name, pose)
@@ -46,8 +55,16 @@ def pushed_bounds(case, name: str, pose: Pose) -> PlanRecord:
     else:
         corners = np.array(case.body(name, pose).convex_hull.exterior.coords)
         x = float(corners[corners[:, 1].argmax(), 0])
-        bounds = ((0, 0), (side, 0), (side, side), (x + 0.3, side), (x + 0.3, y1 - 0.005),
-                  (x - 0.3, y1 - 0.005), (x - 0.3, side), (0, side))
+        bounds = (
+            (0, 0),
+            (side, 0),
+            (side, side),
+            (x + 0.3, side),
+            (x + 0.3, y1 - 0.005),
+            (x - 0.3, y1 - 0.005),
+            (x - 0.3, side),
+            (0, side),
+        )
     return replace(case.record, site=replace(case.record.site, bounds=bounds))
 
 
@@ -64,12 +81,15 @@ def partners(case, time: float, middle, out) -> Iterator[tuple[str, PlanRecord]]
         (Pose(x, y, 0.0), {}),
         (Pose(float(track.x[0]), float(track.y[0]), 0.0), {"puck": track}),
     ):
-        yield "conflict", replace(
-            record,
-            robot_types={**record.robot_types, "puck": PUCK},
-            robots=(*record.robots, Robot("puck", "puck", start)),
-            tours={**record.tours, "puck": ()},
-            tracks={**record.tracks, **tracks},
+        yield (
+            "conflict",
+            replace(
+                record,
+                robot_types={**record.robot_types, "puck": PUCK},
+                robots=(*record.robots, Robot("puck", "puck", start)),
+                tours={**record.tours, "puck": ()},
+                tracks={**record.tracks, **tracks},
+            ),
         )
 
 
@@ -177,7 +197,10 @@ def test_mutants_of_a_right_plan_are_caught(
     case = random_plans.Case(seed, by_hand)
     assert validate_plan(case.record) == []
     mutants = [
-        *body_mutants(case), *limit_mutants(case), *sample_mutants(case), *work_mutants(case)
+        *body_mutants(case),
+        *limit_mutants(case),
+        *sample_mutants(case),
+        *work_mutants(case),
     ]
     missed = []
     for i, (kind, record) in enumerate(mutants):

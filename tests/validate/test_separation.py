@@ -53,8 +53,7 @@ def test_only_the_window_counts(by_hand: ModuleType) -> None:
 def test_pairs_that_stay_apart_are_left_out(by_hand: ModuleType) -> None:
     """Of three carts in a row, 1 m and 2 m apart, one pair comes within 1.5 m."""
     journeys = [
-        by_hand.journey(k, Pose(5.0, y, 0.0))
-        for k, y in zip("abc", (2.0, 3.6, 6.2), strict=True)
+        by_hand.journey(k, Pose(5.0, y, 0.0)) for k, y in zip("abc", (2.0, 3.6, 6.2), strict=True)
     ]
     plan = by_hand.plan([by_hand.CART] * 3, journeys)
     assert len(separations(plan)) == 3
@@ -62,9 +61,7 @@ def test_pairs_that_stay_apart_are_left_out(by_hand: ModuleType) -> None:
     assert (one, other, gap) == ("a", "b", pytest.approx(1.0))
 
 
-def test_random_plans_against_dense_samples(
-    by_hand: ModuleType, random_plans: ModuleType
-) -> None:
+def test_random_plans_against_dense_samples(by_hand: ModuleType, random_plans: ModuleType) -> None:
     """The gap found is at most that of any moment, and no more than 1 mm above the least."""
     record = random_plans.Case(3, by_hand).record
     times = np.arange(0.0, record.makespan, 0.05)

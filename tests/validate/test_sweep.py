@@ -18,7 +18,10 @@ WALL = Part(np.array([[0.0, 0.0], [2.0, 0.0]]))
 
 def moved(part: Part, pose, change=(0.0, 0.0, 0.0)) -> Side:
     steps = Steps(
-        np.zeros(1), np.ones(1), np.array([pose], float), np.array([change], float),
+        np.zeros(1),
+        np.ones(1),
+        np.array([pose], float),
+        np.array([change], float),
         np.zeros(1, bool),
     )
     return Side.moving(part, steps)

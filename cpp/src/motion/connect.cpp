@@ -13,13 +13,14 @@ constexpr double kNothing = 1e-7;  // shorter segments (m, rad) are left out
 struct Candidate {
   double cost;
   const Connection* connection;
-  Word word;            // Reeds-Shepp
+  Word word;                   // Reeds-Shepp
   double turn0, drive, turn1;  // turn on the spot, drive, turn on the spot
 };
 
 void add_turn(const Connection& how, double angle, std::vector<Step>& steps) {
   if (std::abs(angle) < kNothing) return;
-  steps.push_back({angle > 0.0 ? how.rotate_left : how.rotate_right, {0.0, 0.0, angle},
+  steps.push_back({angle > 0.0 ? how.rotate_left : how.rotate_right,
+                   {0.0, 0.0, angle},
                    std::max<Ticks>(1, to_ticks(std::abs(angle) / how.yaw_rate))});
 }
 

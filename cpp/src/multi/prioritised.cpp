@@ -104,10 +104,10 @@ void PrioritisedPlanner::require_gaps() {
 // Let an unplanned robot stand at its start for a while.
 void PrioritisedPlanner::hold(std::size_t i) {
   if (hold_[i] <= 0.0) return;
-  traffic_.insert(static_cast<int>(agents_.size() + i),
-                  std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
-                                                agents_[i].committed,
-                                                static_cast<Ticks>(hold_[i] * kTicksPerSecond)));
+  traffic_.insert(
+      static_cast<int>(agents_.size() + i),
+      std::make_shared<const Track>(&model(i).bodies, agents_[i].start, agents_[i].committed,
+                                    static_cast<Ticks>(hold_[i] * kTicksPerSecond)));
 }
 
 void PrioritisedPlanner::release(std::size_t i) {
@@ -115,7 +115,8 @@ void PrioritisedPlanner::release(std::size_t i) {
   if (traffic_.has(id)) traffic_.remove(id);
 }
 
-std::shared_ptr<const Track> PrioritisedPlanner::track(std::size_t i, const TourResult& tour) const {
+std::shared_ptr<const Track> PrioritisedPlanner::track(std::size_t i,
+                                                       const TourResult& tour) const {
   std::vector<TimedPiece> pieces = agents_[i].committed;
   pieces.insert(pieces.end(), tour.pieces.begin(), tour.pieces.end());
   return std::make_shared<const Track>(&model(i).bodies, agents_[i].start, std::move(pieces));
@@ -171,7 +172,8 @@ void PrioritisedPlanner::find_precedence(const std::vector<std::size_t>& order, 
   followers_.assign(agents_.size(), {});
   for (const std::size_t i : order) {
     const TourResult tour =
-        search_(query(i, nullptr), params_.hard_limit * static_cast<std::int64_t>(agents_[i].legs.size()), budget);
+        search_(query(i, nullptr),
+                params_.hard_limit * static_cast<std::int64_t>(agents_[i].legs.size()), budget);
     if (tour.outcome != TourResult::Outcome::kFound) continue;
     Traffic lone(models_[0].statics[0]->box(), largest_circumradius(models_), reach_of(models_),
                  largest_gap(models_, params_.margin));
@@ -199,9 +201,9 @@ std::vector<std::size_t> PrioritisedPlanner::by_precedence(std::vector<std::size
   }
   std::vector<std::size_t> sorted;
   while (!order.empty()) {
-    const auto next = std::min_element(
-        order.begin(), order.end(),
-        [&](std::size_t a, std::size_t b) { return waits_for[a] < waits_for[b]; });
+    const auto next =
+        std::min_element(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return waits_for[a] < waits_for[b]; });
     for (const std::size_t j : followers_[*next]) --waits_for[j];
     sorted.push_back(*next);
     order.erase(next);
@@ -262,8 +264,8 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
 }
 
 void PrioritisedPlanner::keep_best() {
-  const auto kept = static_cast<std::size_t>(
-      std::count(best_.planned.begin(), best_.planned.end(), true));
+  const auto kept =
+      static_cast<std::size_t>(std::count(best_.planned.begin(), best_.planned.end(), true));
   if (!best_.planned.empty() && num_planned_ <= kept) return;
   best_.tours = tours_;
   best_.planned = planned_;

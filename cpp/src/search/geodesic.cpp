@@ -10,9 +10,9 @@ namespace clearway {
 namespace {
 
 constexpr double kCell = 2.0;
-constexpr double kAllowed = 0.002;      // legal overlap: swell by that much less (m)
-constexpr double kTouch = 1e-6;         // passing a polygon this closely is not entering it (m)
-constexpr int kArc = 4;                 // chords of a half circle
+constexpr double kAllowed = 0.002;  // legal overlap: swell by that much less (m)
+constexpr double kTouch = 1e-6;     // passing a polygon this closely is not entering it (m)
+constexpr int kArc = 4;             // chords of a half circle
 constexpr std::size_t kMostCorners = 20000;
 
 bool enters(const std::vector<Point>& polygon, Point a, Point b) {
@@ -112,9 +112,9 @@ bool Geodesic::visible(Point a, Point b) const {
       x1 = y == row(b.y) ? b.x : a.x + (high - a.y) * slope;
     }
     for (int x = column(std::min(x0, x1)); x <= column(std::max(x0, x1)); ++x) {
-      for (const std::int32_t i : cells_[static_cast<std::size_t>(y) *
-                                             static_cast<std::size_t>(width_) +
-                                         static_cast<std::size_t>(x)]) {
+      for (const std::int32_t i :
+           cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(x)]) {
         if (enters(polygons_[static_cast<std::size_t>(i)], a, b)) return false;
       }
     }

@@ -70,7 +70,8 @@ GoalDistance::GoalDistance(const Statics& statics, double radius, double goal_x,
         for (const Move& m : moves) {
           const int nx = x + m.dx, ny = y + m.dy;
           if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) continue;
-          const float d = distance_[static_cast<std::size_t>(ny) * w + static_cast<std::size_t>(nx)];
+          const float d =
+              distance_[static_cast<std::size_t>(ny) * w + static_cast<std::size_t>(nx)];
           if (d < kUnreachable) wider[at] = std::min(wider[at], d + m.length);
         }
       }

@@ -11,20 +11,20 @@ namespace clearway {
 
 namespace {
 
-constexpr double kGoalCell = 0.5;   // grid of the obstacle-aware goal distance (m)
-constexpr int kMostDelays = 64;     // departures tried for one motion before it is given up
+constexpr double kGoalCell = 0.5;  // grid of the obstacle-aware goal distance (m)
+constexpr int kMostDelays = 64;    // departures tried for one motion before it is given up
 constexpr std::int32_t kNone = -1;
 
 struct Node {
   double x, y;
-  double cost;              // objective so far
-  Ticks t, end;             // the safe interval is left at `end` (set when expanded)
-  Ticks departure;          // from the parent
+  double cost;      // objective so far
+  Ticks t, end;     // the safe interval is left at `end` (set when expanded)
+  Ticks departure;  // from the parent
   std::int32_t parent;
-  std::int32_t hits;        // head of the list of tracks run into (soft search)
-  std::int32_t edge;        // primitive, or num_primitives + shot
+  std::int32_t hits;  // head of the list of tracks run into (soft search)
+  std::int32_t edge;  // primitive, or num_primitives + shot
   std::int16_t leg, k, mode;
-  bool arrives;             // the edge ended at the visit of leg - 1
+  bool arrives;  // the edge ended at the visit of leg - 1
 };
 
 struct Hit {
@@ -34,9 +34,7 @@ struct Hit {
 struct Open {
   double f;
   std::int32_t node;
-  bool operator<(const Open& other) const {
-    return f != other.f ? f > other.f : node < other.node;
-  }
+  bool operator<(const Open& other) const { return f != other.f ? f > other.f : node < other.node; }
 };
 
 }  // namespace
@@ -83,7 +81,9 @@ class TourRun {
     return *q_.model->statics[static_cast<std::size_t>(legs_[static_cast<std::size_t>(leg)].body)];
   }
   int body_leg(int leg) const { return std::min(leg, static_cast<int>(legs_.size()) - 1); }
-  double theta(const Node& n) const { return headings_[static_cast<std::size_t>(n.leg)]->theta(n.k); }
+  double theta(const Node& n) const {
+    return headings_[static_cast<std::size_t>(n.leg)]->theta(n.k);
+  }
   Frame frame(const Node& n) const {
     return headings_[static_cast<std::size_t>(n.leg)]->frame(n.x, n.y, n.k);
   }
@@ -107,10 +107,10 @@ class TourRun {
   double weight_;
   Cells cells_;
 
-  std::vector<const HeadingTable*> headings_;     // per leg, and one more after the last
+  std::vector<const HeadingTable*> headings_;  // per leg, and one more after the last
   std::vector<const GoalDistance*> distances_;
   std::vector<Frame> goal_frames_;
-  std::vector<double> tail_;                      // estimate of all that follows a leg
+  std::vector<double> tail_;  // estimate of all that follows a leg
   std::vector<std::vector<Step>> primitive_steps_;
   std::vector<Node> nodes_;
   std::vector<Hit> hits_;
@@ -118,7 +118,7 @@ class TourRun {
   std::vector<Shot> shots_;
   std::vector<Shot> tried_;
   std::int32_t found_ = kNone;
-  Ticks earliest_rest_ = 0;                       // no final rest can begin before
+  Ticks earliest_rest_ = 0;  // no final rest can begin before
   bool hopeless_ = false;
   double since_shot_ = 0.0;
 };
@@ -165,8 +165,7 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
   const float distance = (*distances_[l])(x, y);
   if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
   const double metres = std::max(0.0, static_cast<double>(distance) - 0.5 * kGoalCell);
-  const double way =
-      s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
+  const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const Frame& goal = goal_frames_[l];
   const Point local = goal.to_local({x, y});
   const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
@@ -234,7 +233,8 @@ Ticks TourRun::next_free(const Body& body, const Frame& at, Ticks from, std::int
 // Whether driving the edge from `departure` on runs into anybody; if so, whom, and the first
 // departure (no later than just past `last_departure`) at which the place of that conflict is
 // free of him.
-bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure, std::int32_t hits, int* track, Ticks last_departure,
+bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
+                       std::int32_t hits, int* track, Ticks last_departure,
                        Ticks* free_departure) const {
   if (!q_.traffic || q_.traffic->empty()) return false;
   Frame at = from;
@@ -274,8 +274,8 @@ bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ti
   return false;
 }
 
-std::int32_t TourRun::collect(const Body& body, const Frame& from,
-                              const Edge& edge, Ticks departure, std::int32_t hits) {
+std::int32_t TourRun::collect(const Body& body, const Frame& from, const Edge& edge,
+                              Ticks departure, std::int32_t hits) {
   int track = 0;
   while (conflict(body, from, edge, departure, hits, &track)) {
     hits_.push_back({track, hits});
@@ -308,8 +308,7 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
   const Frame end = frame(target);
   const std::size_t num_legs = legs_.size();
   const bool last = target.arrives && target.leg == static_cast<int>(num_legs);
-  const Ticks service =
-      target.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Ticks service = target.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
   Ticks departure = from;
   for (int delay = 0; delay < kMostDelays; ++delay) {
@@ -322,7 +321,8 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
       if (target.arrives && !last) {
         child.hits = collect_standing(moving, end, arrival, arrival + service, child.hits);
       }
-      for (std::int32_t h = child.hits; h != parent.hits; h = hits_[static_cast<std::size_t>(h)].next) {
+      for (std::int32_t h = child.hits; h != parent.hits;
+           h = hits_[static_cast<std::size_t>(h)].next) {
         const double penalty = price(hits_[static_cast<std::size_t>(h)].track);
         if (penalty < 0.0) return;
         child.cost += penalty;
@@ -345,8 +345,8 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
     const Ticks t = arrival + service;
     const double cost = parent.cost + target.cost;
     const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
-    if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t,
-                                               cost, standing)) {
+    if (const Interval* seen =
+            cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t, cost, standing)) {
       if (seen->end >= kNever || !q_.traffic) return;
       const Ticks clear = next_free(body(body_leg(target.leg)), end, seen->end + 1, parent.hits);
       if (clear >= kNever) return;
@@ -378,8 +378,7 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
 // `child.cost` holds what the edge adds; waiting and service are added here.
 bool TourRun::push(Node child, Ticks arrival, Ticks departure) {
   const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
-  const Ticks service =
-      child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   child.departure = departure;
   child.t = arrival + service;
   child.end = -1;
@@ -409,10 +408,10 @@ void TourRun::relaunch(const Node& node, Ticks from) {
   const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
   const Edge edge = edge_of(node.edge);
   // Strip what push() added, so that the target carries the edge's own cost again.
-  target.cost = s_.objective_.time ? edge.duration
-                                   : node.cost - parent.cost -
-                                         s_.objective_.waiting *
-                                             (node.departure - parent.t) / kTicksPerSecond;
+  target.cost = s_.objective_.time
+                    ? edge.duration
+                    : node.cost - parent.cost -
+                          s_.objective_.waiting * (node.departure - parent.t) / kTicksPerSecond;
   if (!s_.objective_.time && q_.penalty && node.hits != parent.hits) return;
   launch(node.parent, node.edge, target, std::max(from, node.departure + 1), false);
 }
@@ -492,7 +491,8 @@ void TourRun::shoot(std::int32_t index) {
         headings_[static_cast<std::size_t>(target.leg)]->index(leg.goal.theta));
     target.parent = index;
     target.arrives = true;
-    target.mode = static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
+    target.mode =
+        static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
     Ticks pause = 0;
     target.cost = shot.cost;
     if (!shot.steps.empty() && node.mode >= 0 && shot.steps.front().mode != node.mode) {
@@ -538,8 +538,8 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     }
     const Body& standing = body(node.leg);
     const Frame at = frame(node);
-    if (const Interval* seen = cells_.covering(node.x, node.y, node.k, node.leg, node.mode, node.t,
-                                               node.cost, 0)) {
+    if (const Interval* seen =
+            cells_.covering(node.x, node.y, node.k, node.leg, node.mode, node.t, node.cost, 0)) {
       if (seen->end < kNever && q_.traffic) {
         const Ticks clear = next_free(standing, at, seen->end + 1, node.hits);
         if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
@@ -616,8 +616,7 @@ const GoalDistance& TourSearch::goal_distance(const Statics& statics, double rad
   const auto key = std::make_tuple(&statics, radius, goal.x, goal.y);
   const auto found = goal_distances_.find(key);
   if (found != goal_distances_.end()) return found->second;
-  return goal_distances_
-      .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, kGoalCell))
+  return goal_distances_.emplace(key, GoalDistance(statics, radius, goal.x, goal.y, kGoalCell))
       .first->second;
 }
 

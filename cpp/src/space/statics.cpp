@@ -43,8 +43,10 @@ void Statics::fill_field(const Obstacles& obstacles) {
   const auto lower = [&](Box span, const auto& distance_to) {
     const int ix0 = std::max(0, static_cast<int>((span.x0 - saturation_ - box_.x0) / cell_));
     const int iy0 = std::max(0, static_cast<int>((span.y0 - saturation_ - box_.y0) / cell_));
-    const int ix1 = std::min(width_ - 1, static_cast<int>((span.x1 + saturation_ - box_.x0) / cell_));
-    const int iy1 = std::min(height_ - 1, static_cast<int>((span.y1 + saturation_ - box_.y0) / cell_));
+    const int ix1 =
+        std::min(width_ - 1, static_cast<int>((span.x1 + saturation_ - box_.x0) / cell_));
+    const int iy1 =
+        std::min(height_ - 1, static_cast<int>((span.y1 + saturation_ - box_.y0) / cell_));
     for (int iy = iy0; iy <= iy1; ++iy) {
       std::uint8_t* row = &field_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(width_)];
       for (int ix = ix0; ix <= ix1; ++ix) {
@@ -143,8 +145,9 @@ double Statics::gap(const Body& body, const Frame& f) const {
   double least = reach_ + kBeyond - body.circumradius();
   const int ix = std::clamp(static_cast<int>((f.x - box_.x0) / kBucket), 0, bucket_width_ - 1);
   const int iy = std::clamp(static_cast<int>((f.y - box_.y0) / kBucket), 0, bucket_height_ - 1);
-  const std::size_t bucket = static_cast<std::size_t>(iy) * static_cast<std::size_t>(bucket_width_) +
-                             static_cast<std::size_t>(ix);
+  const std::size_t bucket =
+      static_cast<std::size_t>(iy) * static_cast<std::size_t>(bucket_width_) +
+      static_cast<std::size_t>(ix);
   const auto num_segments = static_cast<std::int32_t>(segments_.size());
   for (std::int32_t k = bucket_start_[bucket]; k < bucket_start_[bucket + 1]; ++k) {
     const std::int32_t item = bucket_items_[static_cast<std::size_t>(k)];

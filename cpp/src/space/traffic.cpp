@@ -8,9 +8,9 @@ namespace clearway {
 namespace {
 
 constexpr double kTile = 2.5;
-constexpr double kChunk = 1.0;   // longest stretch of path marked at once (m)
+constexpr double kChunk = 1.0;  // longest stretch of path marked at once (m)
 constexpr Ticks kSlot = 512;
-constexpr Ticks kMarch = 50;     // coarsest step when waiting for somebody to get clear
+constexpr Ticks kMarch = 50;  // coarsest step when waiting for somebody to get clear
 
 }  // namespace
 
@@ -86,8 +86,10 @@ void Traffic::insert(int id, std::shared_ptr<const Track> track) {
     const auto row = [](double v, int top) {
       return std::clamp(static_cast<int>(std::floor(v / kTile)), 0, top - 1);
     };
-    for (int iy = row(y - radius - box_.y0, height_); iy <= row(y + radius - box_.y0, height_); ++iy) {
-      for (int ix = row(x - radius - box_.x0, width_); ix <= row(x + radius - box_.x0, width_); ++ix) {
+    for (int iy = row(y - radius - box_.y0, height_); iy <= row(y + radius - box_.y0, height_);
+         ++iy) {
+      for (int ix = row(x - radius - box_.x0, width_); ix <= row(x + radius - box_.x0, width_);
+           ++ix) {
         const double dx = std::max({box_.x0 + ix * kTile - x, 0.0, x - box_.x0 - (ix + 1) * kTile});
         const double dy = std::max({box_.y0 + iy * kTile - y, 0.0, y - box_.y0 - (iy + 1) * kTile});
         if (dx * dx + dy * dy > radius * radius) continue;

@@ -149,7 +149,7 @@ def _bays(
     dear = 1.0 + costs[known].sum()
     rows, columns = linear_sum_assignment(np.where(known, costs, dear))
     parked: list[tuple[_Stay, Pose]] = []
-    for row, column in zip(rows, columns, strict=True):
+    for row, column in zip(rows.tolist(), columns.tolist(), strict=True):
         stay, bay = leaving[row], bays[column]
         taken = ShapeIndex([other.at(place) for other, place in parked])
         if known[row, column] and not _overlaps(stay.at(bay), taken):

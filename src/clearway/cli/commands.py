@@ -81,9 +81,7 @@ def _told(run: Run) -> str:
     lines.append(f"  sum of costs {record.sum_of_costs:.1f} s{bound}")
     least = run.metrics.least_separation
     if least:
-        lines.append(
-            f"  least separation {least.metres:.3f} m ({least.first} and {least.second})"
-        )
+        lines.append(f"  least separation {least.metres:.3f} m ({least.first} and {least.second})")
     lines.append(
         f"  planned in {timings['plan_s']:.2f} s CPU ({run.plan.counters['expansions']:,} "
         f"expansions), judged in {timings['judge_s']:.2f} s: "
@@ -134,9 +132,7 @@ def run_check(arguments: argparse.Namespace) -> int:
             if finding.place
         ]
         tasks = [order.task for order in scenario.orders]
-        draw_site(
-            scenario.site, scenario.robot_types, scenario.robots, tasks, picture, marks=marks
-        )
+        draw_site(scenario.site, scenario.robot_types, scenario.robots, tasks, picture, marks=marks)
     if arguments.json:
         _print_json(
             {
@@ -162,8 +158,10 @@ def run_check(arguments: argparse.Namespace) -> int:
         return DONE if legality else BAD_INPUT
     if not arguments.quiet:
         num_tasks = len(scenario.orders)
-        print(f"{scenario.name}: {len(scenario.robots)} robots, {num_tasks} tasks, "
-              f"{len(scenario.site.obstacles)} obstacles, {len(scenario.site.zones)} zones")
+        print(
+            f"{scenario.name}: {len(scenario.robots)} robots, {num_tasks} tasks, "
+            f"{len(scenario.site.obstacles)} obstacles, {len(scenario.site.zones)} zones"
+        )
         tightest = sorted(legality.clearances.items(), key=lambda item: item[1])[:5]
         print("least clearances: " + ", ".join(f"{key} {gap:.3f} m" for key, gap in tightest))
         full = sum(len(tasks) == num_tasks for tasks in legality.reachable.values())

@@ -48,10 +48,10 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"clearway {version('clearway')}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
-    talk = argparse.ArgumentParser(add_help=False)
+    talk = _Parser(add_help=False)
     talk.add_argument("--json", action="store_true", help="one JSON object on stdout, nothing else")
     talk.add_argument("--quiet", action="store_true", help="no progress, no summary")
-    search = argparse.ArgumentParser(add_help=False)
+    search = _Parser(add_help=False)
     search.add_argument("--seed", type=_count, help="repeatable choices (default: the scenario's)")
     search.add_argument("--budget", type=_positive, metavar="SECONDS", help="stop after this long")
     search.add_argument(
@@ -93,7 +93,7 @@ def _fail(arguments: argparse.Namespace, code: int, error: dict[str, Any]) -> in
 
 
 def _described(error: Exception) -> dict[str, Any]:
-    """What is known of an input error: file, key, value and mend where it has them."""
+    """Return what is known of an input error: file, key, value and mend where it has them."""
     told: dict[str, Any] = {"kind": "bad input", "message": str(error)}
     for name in ("file", "key", "mend"):
         if getattr(error, name, None) is not None:

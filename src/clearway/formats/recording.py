@@ -43,7 +43,10 @@ def record_plan(
         cost_name=cost_name,
         cost_lower_bound=plan.cost_lower_bound if cost is not None else None,
         conflict_free_until=plan.conflict_free_until,
-        parameters={**(parameters or {}), **{k: v for k, v in plan.counters.items() if k != "interrupted"}},
+        parameters={
+            **(parameters or {}),
+            **{k: v for k, v in plan.counters.items() if k != "interrupted"},
+        },
         timings=dict(timings or {}),
         version=version,
     )

@@ -44,9 +44,7 @@ def _activities_of(record: PlanRecord, robot: Robot) -> list[Activity]:
     cuts = np.unique(np.concatenate([starts, [arrival], served.ravel()]))
     middles = 0.5 * (cuts[:-1] + cuts[1:])
     spell_at = np.searchsorted(starts, middles, side="right") - 1
-    is_service = np.logical_or.reduce(
-        (served[:, :1] < middles) & (middles < served[:, 1:]), axis=0
-    )
+    is_service = np.logical_or.reduce((served[:, :1] < middles) & (middles < served[:, 1:]), axis=0)
     found: list[Activity] = []
     for start, end, middle, spell, serving in zip(
         cuts[:-1].tolist(), cuts[1:].tolist(), middles.tolist(), spell_at, is_service, strict=True

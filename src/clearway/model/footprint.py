@@ -38,7 +38,9 @@ def check_convex(points: Polygon, what: str) -> Polygon:
         ux, uy, vx, vy = bx - ax, by - ay, cx - bx, cy - by
         cross = ux * vy - uy * vx
         if cross < -1e-9:
-            raise ValueError(f"{what} is not convex at point {(i + 1) % n}; split it into convex parts")
+            raise ValueError(
+                f"{what} is not convex at point {(i + 1) % n}; split it into convex parts"
+            )
         turned += math.atan2(cross, ux * vx + uy * vy)
     if turned > 2.0 * math.pi + 1e-6:
         raise ValueError(f"{what} winds around itself more than once")
@@ -62,7 +64,9 @@ class Footprint:
 
     def __post_init__(self) -> None:
         if bool(self.parts) == bool(self.radius):
-            raise ValueError("a footprint is either convex polygons or a disc with a radius above 0")
+            raise ValueError(
+                "a footprint is either convex polygons or a disc with a radius above 0"
+            )
         if not (math.isfinite(self.radius) and self.radius >= 0.0):
             raise ValueError(f"a disc's radius must be above 0 and finite, got {self.radius}")
         checked = tuple(

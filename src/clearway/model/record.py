@@ -38,11 +38,18 @@ class Track:
     def __post_init__(self) -> None:
         lengths = {len(self.t), len(self.x), len(self.y), len(self.theta), len(self.mode)}
         if len(lengths) != 1 or 0 in lengths:
-            raise ValueError(f"the arrays of a trajectory need one common length above 0, got {sorted(lengths)}")
+            raise ValueError(
+                f"the arrays of a trajectory need one common length above 0, got {sorted(lengths)}"
+            )
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Track) and self.mode == other.mode and all(
-            np.array_equal(getattr(self, k), getattr(other, k)) for k in ("t", "x", "y", "theta")
+        return (
+            isinstance(other, Track)
+            and self.mode == other.mode
+            and all(
+                np.array_equal(getattr(self, k), getattr(other, k))
+                for k in ("t", "x", "y", "theta")
+            )
         )
 
 

@@ -116,7 +116,9 @@ class RobotType:
 
     def __post_init__(self) -> None:
         if self.kinematics not in KINEMATICS:
-            raise ValueError(f"kinematics must be one of {', '.join(KINEMATICS)}, got {self.kinematics!r}")
+            raise ValueError(
+                f"kinematics must be one of {', '.join(KINEMATICS)}, got {self.kinematics!r}"
+            )
         for name in ("clearance", "mode_switch"):
             value = getattr(self, name)
             if not (math.isfinite(value) and value >= 0.0):
@@ -136,7 +138,7 @@ class RobotType:
 
 @dataclass(frozen=True)
 class Robot:
-    """One robot and where it starts; ``start_speed`` (m/s) and ``start_mode`` where it is moving."""
+    """One robot and its start; ``start_speed`` (m/s) and ``start_mode`` where it is moving."""
 
     id: str
     type: str

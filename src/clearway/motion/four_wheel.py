@@ -62,7 +62,9 @@ def four_wheel(robot_type: RobotType, headings: int = 16) -> MotionModel:
             twist = (length * math.cos(mode.direction), length * math.sin(mode.direction))
             motions.append(Motion(mode.name, (*twist, steps * step), steps, length / mode.speed))
         elif mode.turn:
-            motions.append(Motion(mode.name, (0.0, 0.0, mode.turn * step), mode.turn, step / mode.speed))
+            motions.append(
+                Motion(mode.name, (0.0, 0.0, mode.turn * step), mode.turn, step / mode.speed)
+            )
 
     def use(name: str) -> str | None:
         return name if name in allowed else None

@@ -101,4 +101,3 @@ class MotionModel:
     def mode(self, name: str) -> Mode:
         """Return the mode of that name."""
         return next(mode for mode in self.modes if mode.name == name)
-

@@ -83,9 +83,7 @@ class PrioritisedPlanner:
             concerned=concerned,
             trajectories=trajectories,
             tours=problem.tours,
-            assignment={
-                robot.id: _tasks_in_order(problem, robot.id) for robot in problem.robots
-            },
+            assignment={robot.id: _tasks_in_order(problem, robot.id) for robot in problem.robots},
             lower_bound=bounds.seconds,
             cost_lower_bound=bounds.metres,
             counters={

@@ -125,8 +125,14 @@ def _axes(site: Site) -> Axes:
 def _title(axes: Axes, name: str, figures: str) -> None:
     axes.set_title(name.replace("$", r"\$"), loc="left", fontsize=17, color=INK, pad=26)
     axes.annotate(
-        figures, (0.0, 1.0), (0.0, 10.0), xycoords="axes fraction", textcoords="offset points",
-        fontsize=11.5, color=MUTED, annotation_clip=False,
+        figures,
+        (0.0, 1.0),
+        (0.0, 10.0),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        fontsize=11.5,
+        color=MUTED,
+        annotation_clip=False,
     )
 
 

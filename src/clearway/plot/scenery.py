@@ -47,8 +47,10 @@ def draw_body(
     """Draw a body at a pose with a triangle at its front; not filled, its edge is dashed."""
     for patch in _body(shape, pose):
         patch.set(
-            facecolor=colour if filled else "none", edgecolor=INK if filled else colour,
-            linewidth=1.2 if filled else 1.5, linestyle="-" if filled else (0, (3, 1.5)),
+            facecolor=colour if filled else "none",
+            edgecolor=INK if filled else colour,
+            linewidth=1.2 if filled else 1.5,
+            linestyle="-" if filled else (0, (3, 1.5)),
             zorder=order,
         )
         axes.add_patch(patch)
@@ -73,8 +75,17 @@ def write(
 ) -> None:
     """Write with a white rim; ``lift`` moves the text up (points). No sign is a formula."""
     axes.annotate(
-        text.replace("$", r"\$"), (x, y), (0.0, lift), textcoords="offset points", ha="center",
-        va="center", fontsize=size, color=colour, path_effects=_HALO, zorder=order, clip_on=True,
+        text.replace("$", r"\$"),
+        (x, y),
+        (0.0, lift),
+        textcoords="offset points",
+        ha="center",
+        va="center",
+        fontsize=size,
+        color=colour,
+        path_effects=_HALO,
+        zorder=order,
+        clip_on=True,
     )
 
 
@@ -88,9 +99,7 @@ def draw_marks(axes: Axes, marks: Sequence[tuple[float, float, str]]) -> None:
 def _body(shape: Footprint, pose: Pose) -> list[Patch]:
     if shape.radius:
         return [Circle((pose.x, pose.y), shape.radius)]
-    return [
-        Outline([pose.compose(Pose(x, y, 0.0))[:2] for x, y in part]) for part in shape.parts
-    ]
+    return [Outline([pose.compose(Pose(x, y, 0.0))[:2] for x, y in part]) for part in shape.parts]
 
 
 def _obstacle(obstacle: Obstacle) -> Patch:

@@ -4,6 +4,7 @@ Zhang, An, Niu, Bao, Wang, Wang, "An Enhanced Hybrid Metaheuristic for Hierarchi
 in 4WIDS Multi-robot Systems under Confined Environments", Control Engineering Practice.
 """
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
 
@@ -12,7 +13,7 @@ from clearway.assign.insertion import InsertionParams
 from clearway.coordinate import System
 from clearway.model import Scenario, Visit
 from clearway.plan import PrioritisedPlanner, TeamParams
-from clearway.protocols import Weights
+from clearway.protocols import Assigner, Weights
 
 
 @dataclass(frozen=True)
@@ -54,11 +55,11 @@ def hierarchical(settings: HierarchicalSettings) -> System:
     params.search, params.objective = search, objective
 
     def own_tasks(
-        scenario: Scenario, tours: dict[str, tuple[Visit, ...]]
+        scenario: Scenario, tours: Mapping[str, tuple[Visit, ...]]
     ) -> dict[str, tuple[Visit, ...]]:
         return park(scenario.site, scenario.robot_types, scenario.robots, tours, settings.park)
 
-    assigners = {
+    assigners: dict[str, Assigner] = {
         "insertion": InsertionLocalSearch(InsertionParams(even=settings.even)),
         "random": RandomAssigner(even=settings.even),
     }

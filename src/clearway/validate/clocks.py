@@ -28,7 +28,11 @@ def judge_clock(robot: Robot, track: Track) -> list[Violation]:
         return [Violation("clock", (robot.id,), float(track.t[0]), place, None, text)]
     falls = np.diff(track.t)
     return tell(
-        "clock", robot.id, track, falls < 0.0, -falls,
+        "clock",
+        robot.id,
+        track,
+        falls < 0.0,
+        -falls,
         lambda i: f"time falls from {track.t[i]:.6f} s to {track.t[i + 1]:.6f} s",
     )
 
@@ -46,15 +50,27 @@ def judge_samples(robot: Robot, kind: RobotType, track: Track) -> list[Violation
     return [
         *_start(robot, track),
         *tell(
-            "step", robot.id, track, moving & (dt > LONGEST_STEP + TIME_GRAIN), dt,
+            "step",
+            robot.id,
+            track,
+            moving & (dt > LONGEST_STEP + TIME_GRAIN),
+            dt,
             lambda i: f"a moving step lasts {dt[i]:.6f} s, more than {LONGEST_STEP} s",
         ),
         *tell(
-            "turn", robot.id, track, ~held & (turn >= np.pi - 1e-9), turn,
+            "turn",
+            robot.id,
+            track,
+            ~held & (turn >= np.pi - 1e-9),
+            turn,
             lambda i: f"a step turns by {turn[i]:.6f} rad, not less than pi",
         ),
         *tell(
-            "jump", robot.id, track, held & leap, away + turn,
+            "jump",
+            robot.id,
+            track,
+            held & leap,
+            away + turn,
             lambda i: f"two poses at one time, {away[i]:.6f} m and {turn[i]:.6f} rad apart",
         ),
     ]

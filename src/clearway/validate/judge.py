@@ -125,8 +125,11 @@ def _margin(record: PlanRecord, steps: dict[str, Steps]) -> float:
     """Return how far around the bounds bodies can be (m)."""
     bounds = np.array(record.site.bounds)
     reach = max(
-        (kind.shape(loaded).circumradius
-         for kind in record.robot_types.values() for loaded in (False, True)),
+        (
+            kind.shape(loaded).circumradius
+            for kind in record.robot_types.values()
+            for loaded in (False, True)
+        ),
         default=0.0,
     )
     beyond = [0.0]

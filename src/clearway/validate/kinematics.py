@@ -28,9 +28,7 @@ def judge_kinematics(
     ]
 
 
-def _speed(
-    robot: Robot, kind: RobotType, track: Track, motion: Displacement
-) -> list[Violation]:
+def _speed(robot: Robot, kind: RobotType, track: Track, motion: Displacement) -> list[Violation]:
     limits, dt = kind.limits, motion.dt
     holonomic = kind.kinematics == "holonomic"
     # A holonomic robot goes backwards with a part of its motion, the others with all of it.
@@ -50,13 +48,22 @@ def _speed(
         fast &= ~backwards
     return [
         *tell(
-            "speed", robot.id, track, fast, over,
+            "speed",
+            robot.id,
+            track,
+            fast,
+            over,
             lambda i: f"{motion.length[i] / dt[i]:.3f} m/s, limit {limits.speed:.3f} m/s",
         ),
         *tell(
-            "reverse_speed", robot.id, track, too_fast_back, over_back,
-            lambda i: f"{back[i] / dt[i]:.3f} m/s backwards, "
-            f"limit {limits.speed_backwards:.3f} m/s",
+            "reverse_speed",
+            robot.id,
+            track,
+            too_fast_back,
+            over_back,
+            lambda i: (
+                f"{back[i] / dt[i]:.3f} m/s backwards, limit {limits.speed_backwards:.3f} m/s"
+            ),
         ),
     ]
 
@@ -68,7 +75,11 @@ def _yaw_rate(robot: Robot, kind: RobotType, track: Track, motion: Displacement)
     turn = np.abs(motion.turn)
     over = turn - YAW_SLACK * limit * motion.dt
     return tell(
-        "yaw_rate", robot.id, track, (over > REST_STEP) & (motion.dt > 0.0), over,
+        "yaw_rate",
+        robot.id,
+        track,
+        (over > REST_STEP) & (motion.dt > 0.0),
+        over,
         lambda i: f"{turn[i] / motion.dt[i]:.3f} rad/s, limit {limit:.3f} rad/s",
     )
 
@@ -86,7 +97,11 @@ def _curvature(
     if kind.kinematics == "four_wheel":
         broken &= ~mode_mask(track, ROTATING)
     return tell(
-        "turning_radius", robot.id, track, broken, over,
+        "turning_radius",
+        robot.id,
+        track,
+        broken,
+        over,
         lambda i: f"radius {motion.length[i] / turn[i]:.3f} m, least {radius:.3f} m",
     )
 
@@ -106,8 +121,12 @@ def _slip(robot: Robot, kind: RobotType, track: Track, motion: Displacement) -> 
     before = slip - np.interp(track.t - SLIP_WINDOW, track.t, slip)
     worst = np.maximum(after, before)
     return tell(
-        "slip", robot.id, track, worst > SLIP + REST_STEP, worst,
-        lambda i: f"it slips {worst[i] * 1e3:.1f} mm within {SLIP_WINDOW} s, "
-        f"limit {SLIP * 1e3:.0f} mm",
+        "slip",
+        robot.id,
+        track,
+        worst > SLIP + REST_STEP,
+        worst,
+        lambda i: (
+            f"it slips {worst[i] * 1e3:.1f} mm within {SLIP_WINDOW} s, limit {SLIP * 1e3:.0f} mm"
+        ),
     )
-

@@ -41,13 +41,23 @@ def judge_modes(
     otherwise = moving & known & ~_as_said(kind, track, motion)
     return [
         *tell(
-            "mode", robot.id, track, foreign, foreign.astype(float),
+            "mode",
+            robot.id,
+            track,
+            foreign,
+            foreign.astype(float),
             lambda i: f"mode {track.mode[i]} is not one of its type's modes",
         ),
         *tell(
-            "mode", robot.id, track, otherwise, otherwise.astype(float),
-            lambda i: f"a step of mode {track.mode[i]} goes {motion.along[i]:.6f} m along and "
-            f"{motion.across[i]:.6f} m across the body and turns by {motion.turn[i]:.6f} rad",
+            "mode",
+            robot.id,
+            track,
+            otherwise,
+            otherwise.astype(float),
+            lambda i: (
+                f"a step of mode {track.mode[i]} goes {motion.along[i]:.6f} m along and "
+                f"{motion.across[i]:.6f} m across the body and turns by {motion.turn[i]:.6f} rad"
+            ),
         ),
     ]
 
@@ -78,7 +88,5 @@ def _strayed(track: Track, rotating: Bools) -> "np.ndarray[tuple[int], np.dtype[
     edges = np.flatnonzero(np.diff(rotating.astype(np.int8), prepend=0, append=0))
     for first, end in edges.reshape(-1, 2):
         after = slice(first + 1, end + 1)
-        away[first:end] = np.hypot(
-            track.x[after] - track.x[first], track.y[after] - track.y[first]
-        )
+        away[first:end] = np.hypot(track.x[after] - track.x[first], track.y[after] - track.y[first])
     return away

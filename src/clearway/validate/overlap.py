@@ -36,8 +36,13 @@ def overlaps(found: list[Encounters]) -> list[tuple[int, float, Overlap]]:
         for i in range(len(depth)):
             records.append(
                 (
-                    int(encounters.owner[i]), float(steps.t0[i]), float(steps.t1[i]),
-                    float(depth[i]), float(moment[i]), group, i,
+                    int(encounters.owner[i]),
+                    float(steps.t0[i]),
+                    float(steps.t1[i]),
+                    float(depth[i]),
+                    float(moment[i]),
+                    group,
+                    i,
                 )
             )
     records.sort()

@@ -98,9 +98,7 @@ class Timetable:
 
     def box_gaps(self, one: int, other: int) -> Floats:
         """Return lower bounds on the gap of two movers in each window (m)."""
-        apart = np.maximum(
-            self._low[one] - self._high[other], self._low[other] - self._high[one]
-        )
+        apart = np.maximum(self._low[one] - self._high[other], self._low[other] - self._high[one])
         return np.asarray(apart.max(axis=1))
 
     def meeting(self, one: int, other: int, windows: Bools) -> Meeting:
@@ -153,8 +151,7 @@ def _conflicts(meeting: Meeting, tolerance: float) -> list[Violation]:
             worst.time,
             worst.place,
             worst.depth,
-            f"the bodies overlap by {worst.depth * 1e3:.1f} mm, "
-            f"more than {tolerance * 1e3:.0f} mm",
+            f"the bodies overlap by {worst.depth * 1e3:.1f} mm, more than {tolerance * 1e3:.0f} mm",
         )
         for _, _, worst in overlaps(found)
     ]

@@ -78,9 +78,7 @@ def distance(a: Side, b: Side, share: float) -> Floats:
     apart = gap > 0.0
     if apart.any():
         corners_a, corners_b = a.pick(apart).corners(share), b.pick(apart).corners(share)
-        points = np.minimum(
-            _to_edges(corners_a, corners_b), _to_edges(corners_b, corners_a)
-        )
+        points = np.minimum(_to_edges(corners_a, corners_b), _to_edges(corners_b, corners_a))
         gap[apart] = np.maximum(gap[apart], points - (a.radius + b.radius)[apart])
     return gap
 
@@ -94,4 +92,3 @@ def _to_edges(points: Floats, outline: Floats) -> Floats:
     share = (offset * edge).sum(axis=3) / np.where(square > 0.0, square, 1.0)
     away = offset - np.clip(share, 0.0, 1.0)[..., None] * edge
     return np.asarray(np.sqrt((away**2).sum(axis=3)).min(axis=(1, 2)))
-

@@ -185,9 +185,7 @@ def deepest(a: Side, b: Side) -> tuple[Floats, Floats]:
     for _ in range(4):
         offsets: NDArray[np.float64] = np.linspace(-width, width, 9)
         shares = np.clip(centre[:, None] + offsets, 0.0, 1.0)
-        gaps = np.stack(
-            [gap_at(a.within(s, s), b.within(s, s), 0.0) for s in shares.T], axis=1
-        )
+        gaps = np.stack([gap_at(a.within(s, s), b.within(s, s), 0.0) for s in shares.T], axis=1)
         best = gaps.argmin(axis=1)
         rows = np.arange(len(centre))
         centre, depth, width = shares[rows, best], -gaps[rows, best], width / 4.0

@@ -215,7 +215,5 @@ def _visit(robot: Robot, schedule: Schedule, k: int) -> list[Violation]:
         names = (robot.id, *visit.together)
         text = f"{what}: {', '.join(names)} do not stand at their poses at one time"
         return [Violation("together", names, longest[0], place, None, text)]
-    text = (
-        f"{what} lasts {longest[1] - longest[0]:.3f} s instead of {visit.service:.3f} s"
-    )
+    text = f"{what} lasts {longest[1] - longest[0]:.3f} s instead of {visit.service:.3f} s"
     return [Violation("service", (robot.id,), longest[0], place, None, text)]

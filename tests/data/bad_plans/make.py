@@ -257,10 +257,19 @@ def _wrong_bodies() -> dict[str, PlanRecord]:
         "obstacle--between-samples": replace(dart, site=around(post)),
         "obstacle--loaded": delivery(site=around(box(6.0, 4.0, 9.0, 4.5, "lifter:loaded"))),
         "obstacle--at-rest": plan([CART], [beside], site=around(box(8.0, 5.0, 9.0, 6.0))),
-        "bounds": alone(CART, ahead(3.0), site=replace(narrow, bounds=(
-            (0.0, 4.703), (20.0, 4.703), (20.0, 10.0), (0.0, 10.0)))),
-        "bounds--reflex": alone(CART, ahead(3.0), site=replace(narrow, bounds=(
-            (0, 0), (7, 0), (7, 4.703), (8, 4.703), (8, 0), (20, 0), (20, 10), (0, 10)))),
+        "bounds": alone(
+            CART,
+            ahead(3.0),
+            site=replace(narrow, bounds=((0.0, 4.703), (20.0, 4.703), (20.0, 10.0), (0.0, 10.0))),
+        ),
+        "bounds--reflex": alone(
+            CART,
+            ahead(3.0),
+            site=replace(
+                narrow,
+                bounds=((0, 0), (7, 0), (7, 4.703), (8, 4.703), (8, 0), (20, 0), (20, 10), (0, 10)),
+            ),
+        ),
         "zone": alone(CART, ahead(3.0), site=around(zones=(closed,))),
         "conflict": plan([CART, CART], [trip, beside]),
         "conflict--between-samples": replace(
@@ -295,9 +304,12 @@ def _wrong_work() -> dict[str, PlanRecord]:
         "service": replace(right, tours={"a": (tour[0], longer)}),
         "service--passing": plan([LIFTER], [trip], {"a": tour}),
         "together": hand_over(3.5),
-        "together--no-partner": replace(right, tours={"a": (replace(
-            tour[0], together=("b",)), tour[1])}, robots=(*right.robots, Robot(
-                "b", "lifter", Pose(15.0, 8.0, 0.0))), assignment={"a": ("t1",), "b": ()}),
+        "together--no-partner": replace(
+            right,
+            tours={"a": (replace(tour[0], together=("b",)), tour[1])},
+            robots=(*right.robots, Robot("b", "lifter", Pose(15.0, 8.0, 0.0))),
+            assignment={"a": ("t1",), "b": ()},
+        ),
         "status": replace(right, status=Status.STOPPED),
         "assignment": replace(right, assignment={"a": ("t2",)}),
         "sum_of_costs": replace(right, sum_of_costs=right.sum_of_costs + 0.002),
@@ -356,8 +368,12 @@ def right_plans() -> dict[str, PlanRecord]:
         "paper-cost": paper(12.6416),
         "leaving-a-closed-zone": alone(CART, ahead(5.0), site=around(zones=(inside,))),
         "conflict-after-the-window": plan(
-            [CART, CART], [trip, meeting], conflict_free_until=4.0, status=Status.STOPPED,
-            reason="the window ended", sum_of_costs=15.0,
+            [CART, CART],
+            [trip, meeting],
+            conflict_free_until=4.0,
+            status=Status.STOPPED,
+            reason="the window ended",
+            sum_of_costs=15.0,
         ),
         "nobody-moves": plan([CART], [journey("a", Pose(5.0, 5.0, 0.0))], tracks={}),
     }

@@ -139,21 +139,17 @@ void reeds_shepp_words(double x, double y, double phi, Visit&& visit) {
   const double xb = x * std::cos(phi) + y * std::sin(phi);
   const double yb = x * std::sin(phi) - y * std::cos(phi);
 
-  symmetric(x, y, false, rs::lsl, [](const rs::Lengths& l) {
-    return Word{3, {L, S, L}, {l.t, l.u, l.v}};
-  });
-  symmetric(x, y, false, rs::lsr, [](const rs::Lengths& l) {
-    return Word{3, {L, S, R}, {l.t, l.u, l.v}};
-  });
+  symmetric(x, y, false, rs::lsl,
+            [](const rs::Lengths& l) { return Word{3, {L, S, L}, {l.t, l.u, l.v}}; });
+  symmetric(x, y, false, rs::lsr,
+            [](const rs::Lengths& l) { return Word{3, {L, S, R}, {l.t, l.u, l.v}}; });
   const auto lrl = [](const rs::Lengths& l) { return Word{3, {L, R, L}, {l.t, l.u, l.v}}; };
   symmetric(x, y, false, rs::lrl, lrl);
   symmetric(xb, yb, true, rs::lrl, lrl);
-  symmetric(x, y, false, rs::lrlr_outward, [](const rs::Lengths& l) {
-    return Word{4, {L, R, L, R}, {l.t, l.u, -l.u, l.v}};
-  });
-  symmetric(x, y, false, rs::lrlr_inward, [](const rs::Lengths& l) {
-    return Word{4, {L, R, L, R}, {l.t, l.u, l.u, l.v}};
-  });
+  symmetric(x, y, false, rs::lrlr_outward,
+            [](const rs::Lengths& l) { return Word{4, {L, R, L, R}, {l.t, l.u, -l.u, l.v}}; });
+  symmetric(x, y, false, rs::lrlr_inward,
+            [](const rs::Lengths& l) { return Word{4, {L, R, L, R}, {l.t, l.u, l.u, l.v}}; });
   const auto lrsl = [](const rs::Lengths& l) {
     return Word{4, {L, R, S, L}, {l.t, -quarter, l.u, l.v}};
   };

@@ -23,7 +23,7 @@ struct Primitive {
   Twist twist;
   int turn_steps = 0;
   Ticks duration = 0;
-  double cost = 0.0;         // in the objective other than time
+  double cost = 0.0;           // in the objective other than time
   std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits
 };
 
@@ -34,21 +34,21 @@ struct Connection {
   Family family = Family::kReedsShepp;
   double direction = 0.0;  // body-frame angle of forward travel: 0, or pi/2 for transverse curves
   double radius = 0.0;     // Reeds-Shepp turning radius (m)
-  double forward_speed = 0.0, reverse_speed = 0.0;            // straight; 0 forbids
-  double forward_arc_speed = 0.0, reverse_arc_speed = 0.0;    // on arcs
-  double yaw_rate = 0.0;                                      // turning on the spot
-  int forward = -1, reverse = -1;                             // modes
+  double forward_speed = 0.0, reverse_speed = 0.0;          // straight; 0 forbids
+  double forward_arc_speed = 0.0, reverse_arc_speed = 0.0;  // on arcs
+  double yaw_rate = 0.0;                                    // turning on the spot
+  int forward = -1, reverse = -1;                           // modes
   int forward_left = -1, forward_right = -1, reverse_left = -1, reverse_right = -1;
   int rotate_left = -1, rotate_right = -1;
 };
 
 // Weights of the objective: cost = time_weight * seconds moving + length * (1 or turning) + ...
 struct Objective {
-  bool time = true;             // minimise arrival; otherwise the weighted length below
-  double turning = 2.0;         // factor on length while turning
-  double mode_switch = 3.0;     // per change of moving mode (m)
-  double waiting = 0.1;         // per second of standing that is not service
-  double turn_arm = 0.0;        // turning on the spot counts as an arc of this radius (m)
+  bool time = true;          // minimise arrival; otherwise the weighted length below
+  double turning = 2.0;      // factor on length while turning
+  double mode_switch = 3.0;  // per change of moving mode (m)
+  double waiting = 0.1;      // per second of standing that is not service
+  double turn_arm = 0.0;     // turning on the spot counts as an arc of this radius (m)
 };
 
 struct Step {
@@ -59,12 +59,12 @@ struct Step {
 
 struct MotionTable {
   int headings = 16;
-  double top_speed = 0.0;           // m/s, for heuristics
-  double yaw_rate = 0.0;            // rad/s, for heuristics; 0: turns are free
-  std::vector<bool> rest;           // per mode: may the robot wait in it?
+  double top_speed = 0.0;  // m/s, for heuristics
+  double yaw_rate = 0.0;   // rad/s, for heuristics; 0: turns are free
+  std::vector<bool> rest;  // per mode: may the robot wait in it?
   std::vector<Primitive> primitives;
   std::vector<Connection> connections;
-  Ticks switch_duration = 0;        // standing time of a change of moving mode
+  Ticks switch_duration = 0;  // standing time of a change of moving mode
 
   // Longest straight distance between the ends of a primitive or any point on it (m).
   double reach() const;

@@ -15,7 +15,7 @@ struct Agent {
   int model = 0;
   Pose start;
   int mode = -1;
-  Ticks ready = 0;                  // pieces up to here are committed
+  Ticks ready = 0;  // pieces up to here are committed
   std::vector<TimedPiece> committed;
   std::vector<Leg> legs;
   bool fixed = false;
@@ -24,10 +24,10 @@ struct Agent {
 struct TeamParams {
   SearchParams search;
   Objective objective;
-  double margin = 0.01;             // gap kept where the robots' clearance asks for less (m)
-  double first_penalty = 5.0;       // soft search: price of running into a robot (s)
-  double penalty_growth = 1.5;      // each time a robot is ripped up
-  double first_hold = 5.0;          // see hold_ (s); doubled up to last_hold
+  double margin = 0.01;         // gap kept where the robots' clearance asks for less (m)
+  double first_penalty = 5.0;   // soft search: price of running into a robot (s)
+  double penalty_growth = 1.5;  // each time a robot is ripped up
+  double first_hold = 5.0;      // see hold_ (s); doubled up to last_hold
   double last_hold = 80.0;
   double jitter = 0.3;              // random share of the planning order after a restart
   std::int64_t hard_limit = 15000;  // expansions per leg
@@ -39,9 +39,9 @@ struct TeamParams {
 struct TeamResult {
   enum class Status { kSolved, kStopped, kStuck };
   Status status = Status::kStopped;
-  std::vector<TourResult> tours;    // empty pieces where a robot is not planned
+  std::vector<TourResult> tours;  // empty pieces where a robot is not planned
   std::vector<bool> planned;
-  std::vector<int> concerned;       // robots without a plan, or stuck
+  std::vector<int> concerned;  // robots without a plan, or stuck
   std::int64_t expansions = 0;
   int searches = 0, rip_ups = 0, restarts = 0;
 };

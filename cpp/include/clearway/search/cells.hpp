@@ -33,7 +33,8 @@ class Cells {
     const double total = cost + waiting_ * waited;
     for (std::int32_t i = slot.head; i >= 0; i = entries_[static_cast<std::size_t>(i)].next) {
       const Interval& seen = entries_[static_cast<std::size_t>(i)].interval;
-      if (seen.begin <= t && t <= seen.end && seen.cost + waiting_ * (t - seen.begin) <= total + 1e-9) {
+      if (seen.begin <= t && t <= seen.end &&
+          seen.cost + waiting_ * (t - seen.begin) <= total + 1e-9) {
         return &seen;
       }
     }
@@ -63,11 +64,13 @@ class Cells {
   };
 
   std::uint64_t key(double x, double y, int k, int leg, int mode) const {
-    const auto ix = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x * inverse_)) & 0xFFFFF);
-    const auto iy = static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y * inverse_)) & 0xFFFFF);
+    const auto ix =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x * inverse_)) & 0xFFFFF);
+    const auto iy =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y * inverse_)) & 0xFFFFF);
     const auto m = static_cast<std::uint64_t>(by_mode_ ? mode + 1 : 0);
-    return ix | iy << 20 | static_cast<std::uint64_t>(k) << 40 | static_cast<std::uint64_t>(leg) << 48 |
-           m << 56;
+    return ix | iy << 20 | static_cast<std::uint64_t>(k) << 40 |
+           static_cast<std::uint64_t>(leg) << 48 | m << 56;
   }
   std::size_t find(std::uint64_t wanted) const {
     std::uint64_t h = wanted * 0x9E3779B97F4A7C15ULL;

@@ -34,11 +34,10 @@ class HeadingTable {
   // Whether discs that cover the whole motion are clear: true proves it, false proves nothing.
   bool surely_clear(const Statics& statics, int body, double x, double y, int k,
                     std::size_t primitive, double required) const {
-    const std::size_t at =
-        (static_cast<std::size_t>(body) * static_cast<std::size_t>(headings_) +
-         static_cast<std::size_t>(k)) *
-            num_primitives_ +
-        primitive;
+    const std::size_t at = (static_cast<std::size_t>(body) * static_cast<std::size_t>(headings_) +
+                            static_cast<std::size_t>(k)) *
+                               num_primitives_ +
+                           primitive;
     for (std::uint32_t i = first_disc_[at]; i < first_disc_[at + 1]; ++i) {
       const Circle& d = discs_[i];
       if (statics.clearance(x + d.x, y + d.y) < d.r + required) return false;

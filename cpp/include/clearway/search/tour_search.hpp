@@ -17,10 +17,10 @@ namespace clearway {
 
 // What all robots of one type share.
 struct Model {
-  std::vector<Body> bodies;                              // 0 empty, 1 loaded
-  std::vector<std::shared_ptr<const Statics>> statics;   // what stands in each body's way
+  std::vector<Body> bodies;                             // 0 empty, 1 loaded
+  std::vector<std::shared_ptr<const Statics>> statics;  // what stands in each body's way
   MotionTable table;
-  MotionTable fine;                                      // for the retry of a stuck robot
+  MotionTable fine;  // for the retry of a stuck robot
   double clearance = 0.0;
 };
 
@@ -33,12 +33,12 @@ struct Leg {
 };
 
 struct SearchParams {
-  double weight = 1.3;        // on the heuristic: larger is greedier
-  double tail_weight = 2.0;   // on the legs after the current one: larger goes deeper first
-  double soft_weight = 2.0;   // likewise in soft search
-  double rest_factor = 4.0;   // soft search: how much dearer it is to rest in somebody's way
-  double cell = 1.0;          // poses in one cell (m) and heading compete
-  std::size_t shot_words = 3; // analytic connections tried at a time
+  double weight = 1.3;         // on the heuristic: larger is greedier
+  double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
+  double soft_weight = 2.0;    // likewise in soft search
+  double rest_factor = 4.0;    // soft search: how much dearer it is to rest in somebody's way
+  double cell = 1.0;           // poses in one cell (m) and heading compete
+  std::size_t shot_words = 2;  // analytic connections tried at a time
 };
 
 struct TourQuery {
@@ -48,10 +48,10 @@ struct TourQuery {
   int mode = -1;
   Ticks ready = 0;
   const std::vector<Leg>* legs = nullptr;
-  const Traffic* traffic = nullptr;                  // null: alone on the site
-  const std::vector<double>* required = nullptr;     // gap to each track
-  const std::vector<double>* penalty = nullptr;      // soft search: cost of hitting each track;
-                                                     // negative: it does not move away
+  const Traffic* traffic = nullptr;               // null: alone on the site
+  const std::vector<double>* required = nullptr;  // gap to each track
+  const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;
+                                                  // negative: it does not move away
 };
 
 struct TourStop {
@@ -64,7 +64,7 @@ struct TourResult {
   Outcome outcome = Outcome::kExhausted;
   std::vector<TimedPiece> pieces;
   std::vector<TourStop> stops;
-  std::vector<int> hits;      // tracks that a soft path runs into
+  std::vector<int> hits;  // tracks that a soft path runs into
   Ticks arrival = 0;
 };
 

@@ -15,11 +15,11 @@ struct Box {
 // Obstacles of one layer. Polygons come as their edges plus their outline in `solids`, so that
 // the field knows their inside; a body that starts outside can only enter across an edge.
 struct Obstacles {
-  Box box;                                  // of the site; outside of it nothing drives
+  Box box;  // of the site; outside of it nothing drives
   std::vector<Segment> segments;
   std::vector<Circle> discs;
-  std::vector<std::vector<Point>> solids;   // polygons whose inside is blocked
-  std::vector<Point> bounds;                // polygon whose outside is blocked; may be empty
+  std::vector<std::vector<Point>> solids;  // polygons whose inside is blocked
+  std::vector<Point> bounds;               // polygon whose outside is blocked; may be empty
 };
 
 class Statics {

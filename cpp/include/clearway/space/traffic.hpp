@@ -37,7 +37,7 @@ class Track {
   // From here on nothing about it changes any more.
   Ticks settled() const { return pieces_.empty() ? 0 : pieces_.back().end; }
   Ticks gone() const { return gone_; }
-  double speed() const { return speed_; }        // of its fastest body point, m per tick
+  double speed() const { return speed_; }  // of its fastest body point, m per tick
   double circumradius() const { return circumradius_; }
 
  private:

@@ -72,7 +72,7 @@ function showCost(holder) {
   if (m.cost !== null) {
     const name = m.cost_name || "own objective";
     const low = m.cost_lower_bound;
-    holder.append(make("h3", {}, `What the planner minimised: ${name}`));
+    holder.append(make("h3", {}, `The system’s own cost: ${name}`));
     if (low !== null && low > 0) holder.append(boundBars("This plan", m.cost, low, ""));
     const tail = low !== null && low > 0
       ? ` with a lower bound of ${fixed(low)}: at most ${percent(m.cost / low - 1, 2)} above the best.`

@@ -1,0 +1,3 @@
+// The core's tests, in one program.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>

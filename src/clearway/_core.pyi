@@ -1,0 +1,586 @@
+"""
+Native search core: geometry, motion tables, space, search, multi-robot search.
+"""
+
+from collections.abc import Callable, Sequence
+import enum
+
+
+class Pose:
+    """Position (m) and heading (rad)."""
+
+    def __init__(self, x: float, y: float, theta: float) -> None: ...
+
+    @property
+    def x(self) -> float: ...
+
+    @property
+    def y(self) -> float: ...
+
+    @property
+    def theta(self) -> float: ...
+
+class Twist:
+    """Body-frame displacement: along x (m), along y (m), turn (rad)."""
+
+    def __init__(self, a: float, b: float, c: float) -> None: ...
+
+    @property
+    def a(self) -> float: ...
+
+    @property
+    def b(self) -> float: ...
+
+    @property
+    def c(self) -> float: ...
+
+class Body:
+    """Convex parts in the body frame, or a disc."""
+
+    def __init__(self, parts: Sequence[Sequence[Sequence[float]]], disc_radius: float = 0.0) -> None: ...
+
+    @property
+    def circumradius(self) -> float: ...
+
+    @property
+    def inradius(self) -> float: ...
+
+    def gap(self, pose: Pose, other: Body, other_pose: Pose) -> float:
+        """Signed gap between two placed bodies (m)."""
+
+class Obstacles:
+    """Edges, discs and outlines of one layer."""
+
+    def __init__(self, box: Sequence[float], segments: Sequence[Sequence[float]], discs: Sequence[Sequence[float]], solids: Sequence[Sequence[Sequence[float]]], bounds: Sequence[Sequence[float]]) -> None: ...
+
+class Geodesic:
+    """Shortest ways of a disc among obstacles, any angle."""
+
+    def __init__(self, obstacles: Obstacles, radius: float) -> None: ...
+
+    def __call__(self, start: Sequence[float], goal: Sequence[float]) -> float:
+        """Length of the shortest way (m); infinite where there is none."""
+
+class Statics:
+    """Obstacles of one layer behind a distance field."""
+
+    def __init__(self, obstacles: Obstacles, reach: float) -> None: ...
+
+    def clearance(self, x: float, y: float) -> float:
+        """Lower bound of the distance to the nearest obstacle (m)."""
+
+    def gap(self, body: Body, pose: Pose) -> float:
+        """Signed gap of a placed body (m)."""
+
+    def clear(self, body: Body, start: Pose, motion: Twist, required: float = 0.0, slack: float = 0.0008) -> bool:
+        """Whether a body keeps the required gap all along a motion."""
+
+def goal_distances(statics: Statics, radius: float, goal: Sequence[float], cell: float, points: Sequence[Sequence[float]]) -> list[float]:
+    """
+    Obstacle-aware distances (m) of points to a goal for a disc of the given radius.
+    """
+
+NEVER: int = 1073741824
+
+def reeds_shepp_length(x: float, y: float, phi: float) -> float:
+    """
+    Length of the shortest Reeds-Shepp curve from the origin, turning radius 1.
+    """
+
+def reeds_shepp_word(x: float, y: float, phi: float) -> list[tuple[int, float]]:
+    """Segments of that curve: (1 left, 0 straight, -1 right; signed length)."""
+
+class Family(enum.Enum):
+    """Families of analytic connections."""
+
+    REEDS_SHEPP = 0
+
+    TURN_DRIVE_TURN = 1
+
+class Primitive:
+    """One short motion of a table."""
+
+    def __init__(self, mode: int, twist: Twist, turn_steps: int, duration: int, cost: float) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def turn_steps(self) -> int: ...
+
+    @property
+    def duration(self) -> int: ...
+
+    @property
+    def cost(self) -> float: ...
+
+    @property
+    def allowed_from(self) -> int:
+        """Modes in which it may begin, as bits."""
+
+    @allowed_from.setter
+    def allowed_from(self, arg: int, /) -> None: ...
+
+class Connection:
+    """How one family of analytic curves is driven."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def family(self) -> Family: ...
+
+    @family.setter
+    def family(self, arg: Family, /) -> None: ...
+
+    @property
+    def direction(self) -> float: ...
+
+    @direction.setter
+    def direction(self, arg: float, /) -> None: ...
+
+    @property
+    def radius(self) -> float: ...
+
+    @radius.setter
+    def radius(self, arg: float, /) -> None: ...
+
+    @property
+    def forward_speed(self) -> float: ...
+
+    @forward_speed.setter
+    def forward_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def reverse_speed(self) -> float: ...
+
+    @reverse_speed.setter
+    def reverse_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def forward_arc_speed(self) -> float: ...
+
+    @forward_arc_speed.setter
+    def forward_arc_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def reverse_arc_speed(self) -> float: ...
+
+    @reverse_arc_speed.setter
+    def reverse_arc_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def yaw_rate(self) -> float: ...
+
+    @yaw_rate.setter
+    def yaw_rate(self, arg: float, /) -> None: ...
+
+    @property
+    def forward(self) -> int: ...
+
+    @forward.setter
+    def forward(self, arg: int, /) -> None: ...
+
+    @property
+    def reverse(self) -> int: ...
+
+    @reverse.setter
+    def reverse(self, arg: int, /) -> None: ...
+
+    @property
+    def forward_left(self) -> int: ...
+
+    @forward_left.setter
+    def forward_left(self, arg: int, /) -> None: ...
+
+    @property
+    def forward_right(self) -> int: ...
+
+    @forward_right.setter
+    def forward_right(self, arg: int, /) -> None: ...
+
+    @property
+    def reverse_left(self) -> int: ...
+
+    @reverse_left.setter
+    def reverse_left(self, arg: int, /) -> None: ...
+
+    @property
+    def reverse_right(self) -> int: ...
+
+    @reverse_right.setter
+    def reverse_right(self, arg: int, /) -> None: ...
+
+    @property
+    def rotate_left(self) -> int: ...
+
+    @rotate_left.setter
+    def rotate_left(self, arg: int, /) -> None: ...
+
+    @property
+    def rotate_right(self) -> int: ...
+
+    @rotate_right.setter
+    def rotate_right(self, arg: int, /) -> None: ...
+
+class Objective:
+    """What a search minimises."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def time(self) -> bool: ...
+
+    @time.setter
+    def time(self, arg: bool, /) -> None: ...
+
+    @property
+    def turning(self) -> float: ...
+
+    @turning.setter
+    def turning(self, arg: float, /) -> None: ...
+
+    @property
+    def mode_switch(self) -> float: ...
+
+    @mode_switch.setter
+    def mode_switch(self, arg: float, /) -> None: ...
+
+    @property
+    def waiting(self) -> float: ...
+
+    @waiting.setter
+    def waiting(self, arg: float, /) -> None: ...
+
+    @property
+    def turn_arm(self) -> float: ...
+
+    @turn_arm.setter
+    def turn_arm(self, arg: float, /) -> None: ...
+
+class Step:
+    """One part of a connection."""
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def duration(self) -> int: ...
+
+class MotionTable:
+    """A robot's motions as a table."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def headings(self) -> int: ...
+
+    @headings.setter
+    def headings(self, arg: int, /) -> None: ...
+
+    @property
+    def top_speed(self) -> float: ...
+
+    @top_speed.setter
+    def top_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def yaw_rate(self) -> float: ...
+
+    @yaw_rate.setter
+    def yaw_rate(self, arg: float, /) -> None: ...
+
+    @property
+    def rest(self) -> list[bool]: ...
+
+    @rest.setter
+    def rest(self, arg: Sequence[bool], /) -> None: ...
+
+    @property
+    def primitives(self) -> list[Primitive]: ...
+
+    @primitives.setter
+    def primitives(self, arg: Sequence[Primitive], /) -> None: ...
+
+    @property
+    def connections(self) -> list[Connection]: ...
+
+    @connections.setter
+    def connections(self, arg: Sequence[Connection], /) -> None: ...
+
+    @property
+    def switch_duration(self) -> int: ...
+
+    @switch_duration.setter
+    def switch_duration(self, arg: int, /) -> None: ...
+
+def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose) -> list[Step]:
+    """Steps of the best obstacle-free connection between two poses."""
+
+class TimedPiece:
+    """A stretch of a trajectory."""
+
+    def __init__(self, begin: int, end: int, start: Pose, twist: Twist, mode: int, body: int) -> None: ...
+
+    @property
+    def begin(self) -> int: ...
+
+    @property
+    def end(self) -> int: ...
+
+    @property
+    def start(self) -> Pose: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def body(self) -> int: ...
+
+class Leg:
+    """Drive to a goal, then stand there."""
+
+    def __init__(self, goal: Pose, service: int, body: int) -> None: ...
+
+class Model:
+    """What all robots of one type share."""
+
+    def __init__(self, bodies: Sequence[Body], statics: Sequence[Statics], table: MotionTable, fine: MotionTable, clearance: float) -> None: ...
+
+class Agent:
+    """A robot of the team."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def model(self) -> int: ...
+
+    @model.setter
+    def model(self, arg: int, /) -> None: ...
+
+    @property
+    def start(self) -> Pose: ...
+
+    @start.setter
+    def start(self, arg: Pose, /) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @mode.setter
+    def mode(self, arg: int, /) -> None: ...
+
+    @property
+    def ready(self) -> int: ...
+
+    @ready.setter
+    def ready(self, arg: int, /) -> None: ...
+
+    @property
+    def committed(self) -> list[TimedPiece]: ...
+
+    @committed.setter
+    def committed(self, arg: Sequence[TimedPiece], /) -> None: ...
+
+    @property
+    def legs(self) -> list[Leg]: ...
+
+    @legs.setter
+    def legs(self, arg: Sequence[Leg], /) -> None: ...
+
+    @property
+    def fixed(self) -> bool: ...
+
+    @fixed.setter
+    def fixed(self, arg: bool, /) -> None: ...
+
+class SearchParams:
+    """Parameters of the single-robot search."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def weight(self) -> float: ...
+
+    @weight.setter
+    def weight(self, arg: float, /) -> None: ...
+
+    @property
+    def tail_weight(self) -> float: ...
+
+    @tail_weight.setter
+    def tail_weight(self, arg: float, /) -> None: ...
+
+    @property
+    def rest_factor(self) -> float: ...
+
+    @rest_factor.setter
+    def rest_factor(self, arg: float, /) -> None: ...
+
+    @property
+    def soft_weight(self) -> float: ...
+
+    @soft_weight.setter
+    def soft_weight(self, arg: float, /) -> None: ...
+
+    @property
+    def cell(self) -> float: ...
+
+    @cell.setter
+    def cell(self, arg: float, /) -> None: ...
+
+    @property
+    def shot_words(self) -> int: ...
+
+    @shot_words.setter
+    def shot_words(self, arg: int, /) -> None: ...
+
+class TeamParams:
+    """Parameters of prioritised planning."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def search(self) -> SearchParams: ...
+
+    @search.setter
+    def search(self, arg: SearchParams, /) -> None: ...
+
+    @property
+    def objective(self) -> Objective: ...
+
+    @objective.setter
+    def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+    @property
+    def first_penalty(self) -> float: ...
+
+    @first_penalty.setter
+    def first_penalty(self, arg: float, /) -> None: ...
+
+    @property
+    def penalty_growth(self) -> float: ...
+
+    @penalty_growth.setter
+    def penalty_growth(self, arg: float, /) -> None: ...
+
+    @property
+    def first_hold(self) -> float: ...
+
+    @first_hold.setter
+    def first_hold(self, arg: float, /) -> None: ...
+
+    @property
+    def last_hold(self) -> float: ...
+
+    @last_hold.setter
+    def last_hold(self, arg: float, /) -> None: ...
+
+    @property
+    def jitter(self) -> float: ...
+
+    @jitter.setter
+    def jitter(self, arg: float, /) -> None: ...
+
+    @property
+    def hard_limit(self) -> int: ...
+
+    @hard_limit.setter
+    def hard_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def soft_limit(self) -> int: ...
+
+    @soft_limit.setter
+    def soft_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def alone_limit(self) -> int: ...
+
+    @alone_limit.setter
+    def alone_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def restarts(self) -> int: ...
+
+    @restarts.setter
+    def restarts(self, arg: int, /) -> None: ...
+
+class TourStop:
+    """A visit made: its leg, ticks of arrival and leaving."""
+
+    @property
+    def leg(self) -> int: ...
+
+    @property
+    def arrive(self) -> int: ...
+
+    @property
+    def leave(self) -> int: ...
+
+class TourResult:
+    """One robot's way through its visits."""
+
+    @property
+    def pieces(self) -> list[TimedPiece]: ...
+
+    @property
+    def stops(self) -> list[TourStop]: ...
+
+class TeamStatus(enum.Enum):
+    """How prioritised planning ended."""
+
+    SOLVED = 0
+
+    STOPPED = 1
+
+    STUCK = 2
+
+class TeamAnswer:
+    """What planning a team came to."""
+
+    @property
+    def status(self) -> TeamStatus: ...
+
+    @property
+    def tours(self) -> list[TourResult]: ...
+
+    @property
+    def planned(self) -> list[bool]: ...
+
+    @property
+    def concerned(self) -> list[int]: ...
+
+    @property
+    def expansions(self) -> int: ...
+
+    @property
+    def searches(self) -> int: ...
+
+    @property
+    def rip_ups(self) -> int: ...
+
+    @property
+    def restarts(self) -> int: ...
+
+    @property
+    def interrupted(self) -> bool: ...
+
+def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int], None] | None = None) -> TeamAnswer:
+    """
+    Plan a team one after another; an interrupt or the budget ends it with what there is.
+    """
