@@ -92,7 +92,8 @@ void bind_prioritised(nb::module_& m) {
                              std::move(fine),
                              clearance};
           },
-          "bodies"_a, "statics"_a, "table"_a, "fine"_a, "clearance"_a);
+          "bodies"_a, "statics"_a, "table"_a, "fine"_a, "clearance"_a)
+      .def_prop_ro("num_bodies", [](const Model& model) { return model.bodies.size(); });
   nb::class_<Agent>(m, "Agent", "A robot of the team.")
       .def(nb::init<>())
       .def_rw("model", &Agent::model)
@@ -106,7 +107,6 @@ void bind_prioritised(nb::module_& m) {
       .def(nb::init<>())
       .def_rw("weight", &SearchParams::weight)
       .def_rw("tail_weight", &SearchParams::tail_weight)
-      .def_rw("rest_factor", &SearchParams::rest_factor)
       .def_rw("soft_weight", &SearchParams::soft_weight)
       .def_rw("cell", &SearchParams::cell)
       .def_rw("shot_words", &SearchParams::shot_words);

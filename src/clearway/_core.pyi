@@ -355,6 +355,9 @@ class Model:
 
     def __init__(self, bodies: Sequence[Body], statics: Sequence[Statics], table: MotionTable, fine: MotionTable, clearance: float) -> None: ...
 
+    @property
+    def num_bodies(self) -> int: ...
+
 class Agent:
     """A robot of the team."""
 
@@ -418,12 +421,6 @@ class SearchParams:
 
     @tail_weight.setter
     def tail_weight(self, arg: float, /) -> None: ...
-
-    @property
-    def rest_factor(self) -> float: ...
-
-    @rest_factor.setter
-    def rest_factor(self, arg: float, /) -> None: ...
 
     @property
     def soft_weight(self) -> float: ...

@@ -214,7 +214,7 @@ std::vector<std::size_t> PrioritisedPlanner::by_precedence(std::vector<std::size
 PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t> order,
                                                         Budget& budget) {
   std::deque<std::size_t> queue(order.begin(), order.end());
-  const std::size_t most = 3 * order.size() + 20;
+  const std::size_t most = 3 * order.size() + 8;
   for (std::size_t plans = 0; !queue.empty(); ++plans) {
     if (plans > most) {
       failed_ = queue.front();

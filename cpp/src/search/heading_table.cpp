@@ -55,15 +55,23 @@ int HeadingTable::index(double theta) const {
 ConnectTable::ConnectTable(const MotionTable& table, const Objective& objective)
     : table_(&table), objective_(objective) {
   double radius = 1.0;
-  for (const Connection& c : table.connections) radius = std::max(radius, c.radius);
-  cell_ = radius / 6.0;
-  half_ = 42;  // cells on each side of the goal: 7 radii
+  for (const Connection& c : table.connections) {
+    radius = std::max(radius, c.radius);
+    reversible_ = reversible_ && c.forward_speed == c.reverse_speed &&
+                  c.forward_arc_speed == c.reverse_arc_speed;
+  }
+  cell_ = radius / 4.0;
+  half_ = 28;  // cells on each side of the goal: 7 radii
   value_.assign(static_cast<std::size_t>(2 * half_ * half_ * kHeadings), -1.0F);
 }
 
 double ConnectTable::operator()(double x, double y, double turn) {
   if (y < 0.0) {  // mirrored curves cost the same
     y = -y;
+    turn = -turn;
+  }
+  if (reversible_ && x < 0.0) {  // and so do curves driven backwards
+    x = -x;
     turn = -turn;
   }
   const int ix = static_cast<int>(std::floor(x / cell_)) + half_;

@@ -68,7 +68,7 @@ class TourRun {
   void shoot(std::int32_t index);
   void launch(std::int32_t parent, std::int32_t edge, const Node& target, Ticks from, bool soft);
   void relaunch(const Node& node, Ticks from);
-  bool push(Node child, Ticks arrival, Ticks departure);
+  void push(Node child, Ticks arrival, Ticks departure);
   Edge edge_of(std::int32_t edge) const;
   bool is_hit(std::int32_t list, int track) const;
   double price(int track) const;
@@ -118,7 +118,8 @@ class TourRun {
   std::vector<Shot> shots_;
   std::vector<Shot> tried_;
   std::int32_t found_ = kNone;
-  Ticks earliest_rest_ = 0;  // no final rest can begin before
+  std::int32_t best_ = kNone;  // cheapest complete way so far
+  Ticks earliest_rest_ = 0;    // no final rest can begin before
   bool hopeless_ = false;
   double since_shot_ = 0.0;
 };
@@ -328,12 +329,12 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
         child.cost += penalty;
       }
       if (last) {
-        // Who needs to pass a robot at its final rest can only pass before: that is dearer.
+        // Who needs to pass a robot at its final rest can only pass before: that costs again.
         const std::int32_t met = collect_standing(moving, end, arrival, kNever, kNone);
         for (std::int32_t h = met; h != kNone; h = hits_[static_cast<std::size_t>(h)].next) {
           const int track = hits_[static_cast<std::size_t>(h)].track;
           if (price(track) < 0.0) return;
-          child.cost += s_.params_.rest_factor * price(track);
+          child.cost += price(track);
           if (is_hit(child.hits, track)) continue;
           hits_.push_back({track, child.hits});
           child.hits = static_cast<std::int32_t>(hits_.size()) - 1;
@@ -376,7 +377,7 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
 }
 
 // `child.cost` holds what the edge adds; waiting and service are added here.
-bool TourRun::push(Node child, Ticks arrival, Ticks departure) {
+void TourRun::push(Node child, Ticks arrival, Ticks departure) {
   const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
   const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   child.departure = departure;
@@ -387,18 +388,19 @@ bool TourRun::push(Node child, Ticks arrival, Ticks departure) {
                     ? departure - parent.t + service
                     : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond;
   const double f = priority(child);
-  if (!std::isfinite(f)) return false;
+  if (!std::isfinite(f)) return;
   const auto index = static_cast<std::int32_t>(nodes_.size());
   nodes_.push_back(child);
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end());
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
+  if (!last) return;
+  if (best_ == kNone || child.cost < nodes_[static_cast<std::size_t>(best_)].cost) best_ = index;
   // Nothing can come to rest earlier than this, so nothing better is left to find.
-  if (last && s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
+  if (s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
       arrival <= earliest_rest_ + 1000) {
     found_ = index;
   }
-  return true;
 }
 
 // Drive a node's own edge again, later.
@@ -548,7 +550,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     }
     if (!budget.spend() || ++spent > limit) {
       result.outcome = TourResult::Outcome::kStopped;
-      return result;
+      return best_ == kNone || !q_.penalty ? result : extract(best_);
     }
     const bool can_wait = node.mode < 0 || table_.rest[static_cast<std::size_t>(node.mode)];
     const Ticks end = can_wait ? safe_until(standing, at, node.t, node.hits) : node.t;

@@ -8,6 +8,7 @@ from clearway.motion import MODELS, MotionModel
 from clearway.motion.native import native_table
 from clearway.world.obstacles import native_body, native_obstacles
 
+LOAD_CHANGE = {"pick": 1, "drop": -1, None: 0}
 COARSE_HEADINGS, FINE_HEADINGS = 16, 32
 
 
@@ -28,16 +29,23 @@ class NativeTeam:
         build = MODELS[robot_type.kinematics]
         self.motion[robot_type.name] = build(robot_type, COARSE_HEADINGS)
         site = self.problem.site
+        changes = robot_type.loaded_footprint is not None or any(o.blocks for o in site.obstacles)
+        states = (False, True) if changes else (False,)
+        statics = [
+            _core.Statics(native_obstacles(site, robot_type.name, loaded), reach)
+            for loaded in states
+        ]
         return _core.Model(
-            [native_body(robot_type.shape(loaded)) for loaded in (False, True)],
-            [
-                _core.Statics(native_obstacles(site, robot_type.name, loaded), reach)
-                for loaded in (False, True)
-            ],
+            [native_body(robot_type.shape(loaded)) for loaded in states],
+            statics,
             native_table(self.motion[robot_type.name]),
             native_table(build(robot_type, FINE_HEADINGS)),
             robot_type.clearance,
         )
+
+    def _body(self, robot_type: str, loads: int) -> int:
+        """Number of the body that a robot has with that many loads."""
+        return min(int(loads > 0), self.models[self.type_names.index(robot_type)].num_bodies - 1)
 
     def _agent(self, index: int) -> _core.Agent:
         robot = self.problem.robots[index]
@@ -56,9 +64,9 @@ class NativeTeam:
             agent.committed = self._timed(prefix, robot.type)
         legs = []
         for visit in self.problem.tours.get(robot.id, ()):
-            body = int(loads > 0)
+            body = self._body(robot.type, loads)
             legs.append(_core.Leg(_core.Pose(*visit.pose), to_ticks(visit.service), body))
-            loads += {"pick": 1, "drop": -1, None: 0}[visit.load]
+            loads += LOAD_CHANGE[visit.load]
         agent.legs = [] if fixed else legs
         return agent
 
@@ -70,7 +78,7 @@ class NativeTeam:
                 out.append(
                     _core.TimedPiece(tick, begin, _core.Pose(*pose), _core.Twist(0, 0, 0), -1, body)
                 )
-            body = int(piece.loaded)
+            body = self._body(type_name, int(piece.loaded))
             mode = numbers.get(piece.mode or "", 0)
             out.append(
                 _core.TimedPiece(
@@ -92,14 +100,17 @@ class NativeTeam:
             start = state.committed.start
             pieces += state.committed.pieces
             timing += state.committed.timing
+        stops = tuple(Stop(stop.leg, stop.arrive, stop.leave) for stop in tour.stops)
+        loads, ahead = int(state.loaded), list(stops)
         for native in tour.pieces:
             if native.mode < 0:
                 continue
+            while ahead and ahead[0].leave <= native.begin:
+                loads += LOAD_CHANGE[self.problem.tours[robot.id][ahead.pop(0).visit].load]
             pose = Pose(native.start.x, native.start.y, wrap(native.start.theta))
             twist = (native.twist.a, native.twist.b, native.twist.c)
-            pieces.append(Piece(len(pieces), names[native.mode], pose, twist, bool(native.body)))
+            pieces.append(Piece(len(pieces), names[native.mode], pose, twist, loads > 0))
             timing.append((native.begin, native.end))
-        stops = tuple(Stop(stop.leg, stop.arrive, stop.leave) for stop in tour.stops)
         return Trajectory(robot.id, start, tuple(pieces), tuple(timing), stops)
 
     def ids(self, indices: Sequence[int]) -> tuple[str, ...]:

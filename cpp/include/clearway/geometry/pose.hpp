@@ -19,7 +19,13 @@ inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
 
 inline double length(Point a) { return std::sqrt(dot(a, a)); }
 
-inline double wrap(double angle) { return std::remainder(angle, kTau); }
+// Into [-pi, pi]; most angles are less than a turn away.
+inline double wrap(double angle) {
+  constexpr double half = std::numbers::pi;
+  if (std::abs(angle) <= half) return angle;
+  if (std::abs(angle) < 3.0 * half) return angle > 0.0 ? angle - kTau : angle + kTau;
+  return std::remainder(angle, kTau);
+}
 
 struct Pose {
   double x = 0.0, y = 0.0, theta = 0.0;

@@ -54,6 +54,8 @@ class Cells {
   }
 
  private:
+  static constexpr double kShift = 1 << 19;
+
   struct Slot {
     std::uint64_t key = 0;
     std::int32_t head = -1;
@@ -64,10 +66,9 @@ class Cells {
   };
 
   std::uint64_t key(double x, double y, int k, int leg, int mode) const {
-    const auto ix =
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x * inverse_)) & 0xFFFFF);
-    const auto iy =
-        static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y * inverse_)) & 0xFFFFF);
+    // Shifted to be positive, so that truncation rounds down.
+    const auto ix = static_cast<std::uint64_t>(x * inverse_ + kShift) & 0xFFFFF;
+    const auto iy = static_cast<std::uint64_t>(y * inverse_ + kShift) & 0xFFFFF;
     const auto m = static_cast<std::uint64_t>(by_mode_ ? mode + 1 : 0);
     return ix | iy << 20 | static_cast<std::uint64_t>(k) << 40 |
            static_cast<std::uint64_t>(leg) << 48 | m << 56;

@@ -69,6 +69,7 @@ class ConnectTable {
   Objective objective_;
   double cell_;
   int half_;
+  bool reversible_ = true;
   std::vector<float> value_;
   std::vector<Shot> scratch_;
 };

@@ -36,7 +36,6 @@ struct SearchParams {
   double weight = 1.3;         // on the heuristic: larger is greedier
   double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
-  double rest_factor = 4.0;    // soft search: how much dearer it is to rest in somebody's way
   double cell = 1.0;           // poses in one cell (m) and heading compete
   std::size_t shot_words = 2;  // analytic connections tried at a time
 };

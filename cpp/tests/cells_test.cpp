@@ -1,0 +1,81 @@
+#include "clearway/search/cells.hpp"
+
+#include <doctest/doctest.h>
+
+#include "scenes.hpp"
+
+using namespace clearway;
+
+TEST_CASE("Who comes later to where one could have waited is covered, who comes earlier is not") {
+  Cells cells(1.0, 1.0);
+  cells.add(3.5, 4.5, 2, 0, 0, {1000, 5000, 1000.0});
+  CHECK(cells.covering(3.9, 4.1, 2, 0, 0, 1000, 1000.0, 0));
+  CHECK(cells.covering(3.9, 4.1, 2, 0, 0, 5000, 5000.0, 0));
+  CHECK(!cells.covering(3.9, 4.1, 2, 0, 0, 999, 999.0, 0));
+  CHECK(!cells.covering(3.9, 4.1, 2, 0, 0, 5001, 5001.0, 0));
+}
+
+TEST_CASE("Whoever comes more cheaply is not covered") {
+  // A tick of waiting costs 0.01: waiting from 1000 to 3000 makes 5 into 25.
+  Cells cells(1.0, 0.01);
+  cells.add(0.5, 0.5, 0, 0, 0, {1000, 5000, 5.0});
+  CHECK(!cells.covering(0.5, 0.5, 0, 0, 0, 3000, 24.9, 0));
+  CHECK(cells.covering(0.5, 0.5, 0, 0, 0, 3000, 25.1, 0));
+  // The asker's own waiting counts for him too: 24.9 and 20 ticks make 25.1.
+  CHECK(cells.covering(0.5, 0.5, 0, 0, 0, 3000, 24.9, 20));
+}
+
+TEST_CASE("Another cell, heading, leg or mode is another place") {
+  Cells cells(1.0, 1.0);
+  cells.distinguish_modes(true);
+  cells.add(3.5, -4.5, 2, 1, 3, {0, kNever, 0.0});
+  CHECK(cells.covering(3.5, -4.5, 2, 1, 3, 10, 10.0, 0));
+  CHECK(!cells.covering(4.5, -4.5, 2, 1, 3, 10, 10.0, 0));
+  CHECK(!cells.covering(3.5, -3.5, 2, 1, 3, 10, 10.0, 0));
+  CHECK(!cells.covering(3.5, -4.5, 3, 1, 3, 10, 10.0, 0));
+  CHECK(!cells.covering(3.5, -4.5, 2, 0, 3, 10, 10.0, 0));
+  CHECK(!cells.covering(3.5, -4.5, 2, 1, 4, 10, 10.0, 0));
+  CHECK(!cells.covering(3.5, -4.5, 2, 1, -1, 10, 10.0, 0));
+}
+
+TEST_CASE("Where switching costs nothing modes share a place") {
+  Cells cells(1.0, 1.0);
+  cells.add(0, 0, 0, 0, 3, {0, kNever, 0.0});
+  CHECK(cells.covering(0, 0, 0, 0, 5, 10, 10.0, 0));
+}
+
+TEST_CASE("Nothing is lost or mixed up while the table grows past many thousand places") {
+  Cells cells(0.5, 1.0);
+  scenes::Dice dice(61);
+  struct Entry {
+    double x, y;
+    int k, leg;
+    Interval interval;
+  };
+  std::vector<Entry> entries;
+  for (int ix = 0; ix < 60; ++ix) {
+    for (int iy = 0; iy < 60; ++iy) {
+      for (int k = 0; k < 8; ++k) {
+        const auto begin = static_cast<Ticks>(dice.between(0, 1000));
+        entries.push_back({0.5 * ix - 10.0 + 0.2, 0.5 * iy - 10.0 + 0.2, k, ix % 3,
+                           {begin, begin + 100, static_cast<double>(begin)}});
+        const Entry& e = entries.back();
+        cells.add(e.x, e.y, e.k, e.leg, 0, e.interval);
+      }
+    }
+  }
+  for (const Entry& e : entries) {
+    CHECK(cells.covering(e.x, e.y, e.k, e.leg, 0, e.interval.begin, e.interval.cost, 0));
+    CHECK(!cells.covering(e.x, e.y, e.k, e.leg, 0, e.interval.begin - 1, e.interval.cost, 0));
+    CHECK(!cells.covering(e.x, e.y, e.k, e.leg, 0, e.interval.end + 1, 1e9, 0));
+    CHECK(!cells.covering(e.x, e.y, e.k, 3, 0, e.interval.begin, 1e9, 0));
+  }
+}
+
+TEST_CASE("A place keeps all its intervals") {
+  Cells cells(1.0, 1.0);
+  for (Ticks t = 0; t < 10; ++t) cells.add(0, 0, 0, 0, 0, {t * 100, t * 100 + 50, t * 100.0});
+  for (Ticks t = 0; t < 1000; ++t) {
+    CHECK((cells.covering(0, 0, 0, 0, 0, t, t, 0) != nullptr) == (t % 100 <= 50));
+  }
+}
