@@ -74,8 +74,10 @@ def _told(run: Run) -> str:
     if record.reason:
         lines[0] += f" ({record.reason})"
     tasks = sum(len(done) for done in record.assignment.values())
+    done = run.metrics.tasks_done
     lines.append(
-        f"  {len(record.robots)} robots, {tasks} tasks; all done after {record.makespan:.1f} s"
+        f"  {len(record.robots)} robots, {done} of {tasks} tasks done, "
+        f"the last arrival after {record.makespan:.1f} s"
     )
     bound = f", lower bound {record.lower_bound:.1f} s" if record.lower_bound else ""
     lines.append(f"  sum of costs {record.sum_of_costs:.1f} s{bound}")
@@ -164,8 +166,8 @@ def run_check(arguments: argparse.Namespace) -> int:
         )
         tightest = sorted(legality.clearances.items(), key=lambda item: item[1])[:5]
         print("least clearances: " + ", ".join(f"{key} {gap:.3f} m" for key, gap in tightest))
-        full = sum(len(tasks) == num_tasks for tasks in legality.reachable.values())
-        print(f"{full} of {len(scenario.robots)} robots can reach every task they may do")
+        within = set().union(*legality.reachable.values())
+        print(f"{len(within)} of {num_tasks} tasks lie within reach of a robot that may do them")
     for number, finding in enumerate(legality.findings, start=1):
         print(f"{number}. {finding.severity}: {finding.key}: {finding.text}")
     if legality and not arguments.quiet:

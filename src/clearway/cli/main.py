@@ -92,9 +92,11 @@ def _fail(arguments: argparse.Namespace, code: int, error: dict[str, Any]) -> in
     return code
 
 
-def _described(error: Exception) -> dict[str, Any]:
+def _described(error: Exception, file: str | None) -> dict[str, Any]:
     """Return what is known of an input error: file, key, value and mend where it has them."""
     told: dict[str, Any] = {"kind": "bad input", "message": str(error)}
+    if file and getattr(error, "file", None) is None:
+        told |= {"file": file, "message": f"{file}: {error}"}
     for name in ("file", "key", "mend"):
         if getattr(error, name, None) is not None:
             told[name] = getattr(error, name)
@@ -126,4 +128,4 @@ def main(argv: Sequence[str] | None = None) -> int:
         message = f"{place}: {error.strerror or error}; check the path, its rights and free space"
         return _fail(arguments, BAD_INPUT, {"kind": "file", "message": message, "file": place})
     except ValueError as error:
-        return _fail(arguments, BAD_INPUT, _described(error))
+        return _fail(arguments, BAD_INPUT, _described(error, getattr(arguments, "scenario", None)))

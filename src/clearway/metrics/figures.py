@@ -57,7 +57,8 @@ class Metrics:
     Parameters
     ----------
     gap
-        ``sum_of_costs / lower_bound - 1``; ``None`` without a bound above 0.
+        ``sum_of_costs / lower_bound - 1``; ``None`` without a bound above 0 or where the plan
+        is not complete.
     duration
         End of the last activity of all, service at the last visit included.
     separations
@@ -117,7 +118,7 @@ def plan_metrics(
         sum_of_costs=record.sum_of_costs,
         makespan=record.makespan,
         lower_bound=bound,
-        gap=record.sum_of_costs / bound - 1.0 if bound else None,
+        gap=record.sum_of_costs / bound - 1.0 if bound and record.status else None,
         cost=record.cost,
         cost_name=record.cost_name,
         cost_lower_bound=record.cost_lower_bound,

@@ -31,7 +31,7 @@ class IllegalScenario(ValueError):
 class Run:
     """A plan with its record, figures and the judge's findings.
 
-    ``interrupted`` tells that a person stopped the search; then the plan is not judged yet.
+    ``interrupted`` tells that a person stopped the search; then separations are not measured.
     """
 
     plan: Plan
@@ -103,7 +103,9 @@ def solve(
     )
     sampled = now()
     violations = tuple(validate_plan(record))
-    metrics = plan_metrics(record, separations(record), len(violations))
+    # Who presses Ctrl-C wants the end, not the closest encounters.
+    interrupted = plan.counters.get("interrupted")
+    metrics = plan_metrics(record, [] if interrupted else separations(record), len(violations))
     judged = now()
     if clock:
         timings = {

@@ -56,6 +56,9 @@ function showCost(holder) {
   if (m.lower_bound === null) {
     holder.append(make("p", {}, `${say1}No lower bound is known, so this page cannot tell how far `
       + "from the best plan that is."));
+  } else if (m.status !== "solved") {
+    holder.append(make("p", {}, `${say1}The plan is not complete, so that cannot be held against the `
+      + `lower bound for all the work, ${fixed(m.lower_bound)} s.`));
   } else {
     const words = m.gap === null || m.gap > 0.0005
       ? `so a better plan could save ${m.gap === null ? "nothing" : percent(m.gap / (1 + m.gap))} at most.`
@@ -71,12 +74,12 @@ function showCost(holder) {
   }
   if (m.cost !== null) {
     const name = m.cost_name || "own objective";
-    const low = m.cost_lower_bound;
+    const low = m.status === "solved" ? m.cost_lower_bound : null;
     holder.append(make("h3", {}, `The system’s own cost: ${name}`));
     if (low !== null && low > 0) holder.append(boundBars("This plan", m.cost, low, ""));
     const tail = low !== null && low > 0
       ? ` with a lower bound of ${fixed(low)}: at most ${percent(m.cost / low - 1, 2)} above the best.`
-      : "; no lower bound on it is known.";
+      : ".";
     holder.append(make("p", {}, `This plan has ${fixed(m.cost)}${tail}`));
   }
   const graph = Object.entries(data.bound_on_graph);
