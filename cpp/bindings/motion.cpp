@@ -30,7 +30,8 @@ void bind_motion(nb::module_& m) {
 
   nb::enum_<Family>(m, "Family", "Families of analytic connections.")
       .value("REEDS_SHEPP", Family::kReedsShepp)
-      .value("TURN_DRIVE_TURN", Family::kTurnDriveTurn);
+      .value("TURN_DRIVE_TURN", Family::kTurnDriveTurn)
+      .value("SLIDE", Family::kSlide);
   nb::class_<Primitive>(m, "Primitive", "One short motion of a table.")
       .def(
           "__init__",
@@ -59,6 +60,9 @@ void bind_motion(nb::module_& m) {
       .def_rw("forward_right", &Connection::forward_right)
       .def_rw("reverse_left", &Connection::reverse_left)
       .def_rw("reverse_right", &Connection::reverse_right)
+      .def_rw("sideways_speed", &Connection::sideways_speed)
+      .def_rw("left", &Connection::left)
+      .def_rw("right", &Connection::right)
       .def_rw("rotate_left", &Connection::rotate_left)
       .def_rw("rotate_right", &Connection::rotate_right);
   nb::class_<Objective>(m, "Objective", "What a search minimises.")
@@ -66,8 +70,7 @@ void bind_motion(nb::module_& m) {
       .def_rw("time", &Objective::time)
       .def_rw("turning", &Objective::turning)
       .def_rw("mode_switch", &Objective::mode_switch)
-      .def_rw("waiting", &Objective::waiting)
-      .def_rw("turn_arm", &Objective::turn_arm);
+      .def_rw("waiting", &Objective::waiting);
   nb::class_<Step>(m, "Step", "One part of a connection.")
       .def_ro("mode", &Step::mode)
       .def_ro("twist", &Step::twist)
@@ -80,6 +83,7 @@ void bind_motion(nb::module_& m) {
       .def_rw("rest", &MotionTable::rest)
       .def_rw("primitives", &MotionTable::primitives)
       .def_rw("connections", &MotionTable::connections)
+      .def_rw("turn_arm", &MotionTable::turn_arm)
       .def_rw("switch_duration", &MotionTable::switch_duration);
   m.def(
       "connect",

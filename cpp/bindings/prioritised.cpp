@@ -37,6 +37,7 @@ TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents
     if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds) {
       return true;
     }
+    if (answer.interrupted) return true;
     nb::gil_scoped_acquire gil;
     if (PyErr_CheckSignals() == 0) return false;
     PyErr_Clear();
@@ -50,7 +51,12 @@ TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents
       if (Clock::now() - told < std::chrono::milliseconds(200)) return;
       told = Clock::now();
       nb::gil_scoped_acquire gil;
-      (*progress)(planned, total, spent);
+      try {
+        (*progress)(planned, total, spent);
+      } catch (nb::python_error& error) {
+        if (!error.matches(PyExc_KeyboardInterrupt)) throw;
+        answer.interrupted = true;
+      }
     };
   }
   nb::gil_scoped_release release;
@@ -102,6 +108,7 @@ void bind_prioritised(nb::module_& m) {
       .def_rw("ready", &Agent::ready)
       .def_rw("committed", &Agent::committed)
       .def_rw("legs", &Agent::legs)
+      .def_rw("rest_body", &Agent::rest_body)
       .def_rw("fixed", &Agent::fixed);
   nb::class_<SearchParams>(m, "SearchParams", "Parameters of the single-robot search.")
       .def(nb::init<>())
@@ -140,6 +147,8 @@ void bind_prioritised(nb::module_& m) {
       .def_prop_ro("tours", [](const TeamAnswer& a) { return a.result.tours; })
       .def_prop_ro("planned", [](const TeamAnswer& a) { return a.result.planned; })
       .def_prop_ro("concerned", [](const TeamAnswer& a) { return a.result.concerned; })
+      .def_prop_ro("conflict_free_until",
+                   [](const TeamAnswer& a) { return a.result.conflict_free_until; })
       .def_prop_ro("expansions", [](const TeamAnswer& a) { return a.result.expansions; })
       .def_prop_ro("searches", [](const TeamAnswer& a) { return a.result.searches; })
       .def_prop_ro("rip_ups", [](const TeamAnswer& a) { return a.result.rip_ups; })

@@ -97,6 +97,8 @@ class Family(enum.Enum):
 
     TURN_DRIVE_TURN = 1
 
+    SLIDE = 2
+
 class Primitive:
     """One short motion of a table."""
 
@@ -214,6 +216,24 @@ class Connection:
     def reverse_right(self, arg: int, /) -> None: ...
 
     @property
+    def sideways_speed(self) -> float: ...
+
+    @sideways_speed.setter
+    def sideways_speed(self, arg: float, /) -> None: ...
+
+    @property
+    def left(self) -> int: ...
+
+    @left.setter
+    def left(self, arg: int, /) -> None: ...
+
+    @property
+    def right(self) -> int: ...
+
+    @right.setter
+    def right(self, arg: int, /) -> None: ...
+
+    @property
     def rotate_left(self) -> int: ...
 
     @rotate_left.setter
@@ -253,12 +273,6 @@ class Objective:
 
     @waiting.setter
     def waiting(self, arg: float, /) -> None: ...
-
-    @property
-    def turn_arm(self) -> float: ...
-
-    @turn_arm.setter
-    def turn_arm(self, arg: float, /) -> None: ...
 
 class Step:
     """One part of a connection."""
@@ -312,6 +326,12 @@ class MotionTable:
 
     @connections.setter
     def connections(self, arg: Sequence[Connection], /) -> None: ...
+
+    @property
+    def turn_arm(self) -> float: ...
+
+    @turn_arm.setter
+    def turn_arm(self, arg: float, /) -> None: ...
 
     @property
     def switch_duration(self) -> int: ...
@@ -398,6 +418,12 @@ class Agent:
 
     @legs.setter
     def legs(self, arg: Sequence[Leg], /) -> None: ...
+
+    @property
+    def rest_body(self) -> int: ...
+
+    @rest_body.setter
+    def rest_body(self, arg: int, /) -> None: ...
 
     @property
     def fixed(self) -> bool: ...
@@ -561,6 +587,9 @@ class TeamAnswer:
 
     @property
     def concerned(self) -> list[int]: ...
+
+    @property
+    def conflict_free_until(self) -> int: ...
 
     @property
     def expansions(self) -> int: ...

@@ -15,10 +15,10 @@ struct Budget {
 
   // Counts one expansion; false when the effort is used up or a stop was asked for.
   bool spend() {
-    if (ended) return false;
-    ++spent;
-    if (expansions >= 0 && spent > expansions) ended = true;
-    if ((spent & 511) == 0 && stop && stop()) ended = true;
+    if (!ended) {
+      ended = (expansions >= 0 && spent >= expansions) || ((spent & 511) == 511 && stop && stop());
+    }
+    if (!ended) ++spent;
     return !ended;
   }
 };

@@ -13,8 +13,9 @@ constexpr double kNothing = 1e-7;  // shorter segments (m, rad) are left out
 struct Candidate {
   double cost;
   const Connection* connection;
-  Word word;                   // Reeds-Shepp
-  double turn0, drive, turn1;  // turn on the spot, drive, turn on the spot
+  Word word;                           // Reeds-Shepp; else:
+  double turn0, along, across, turn1;  // turn on the spot, drive, slide, turn on the spot
+  bool across_first;
 };
 
 void add_turn(const Connection& how, double angle, std::vector<Step>& steps) {
@@ -40,6 +41,13 @@ void add_drive(const Connection& how, double length, double turn, std::vector<St
                    std::max<Ticks>(1, to_ticks(std::abs(length) / speed))});
 }
 
+void add_slide(const Connection& how, double length, std::vector<Step>& steps) {
+  if (std::abs(length) < kNothing) return;
+  steps.push_back({length > 0.0 ? how.left : how.right,
+                   {0.0, length, 0.0},
+                   std::max<Ticks>(1, to_ticks(std::abs(length) / how.sideways_speed))});
+}
+
 double drive_cost(const Objective& objective, const Connection& how, double length, bool turning) {
   if (std::abs(length) < kNothing) return 0.0;
   const bool ahead = length > 0.0;
@@ -50,9 +58,15 @@ double drive_cost(const Objective& objective, const Connection& how, double leng
   return std::abs(length) * (turning ? objective.turning : 1.0);
 }
 
-double turn_cost(const Objective& objective, const Connection& how, double angle) {
+double turn_cost(const MotionTable& table, const Objective& objective, const Connection& how,
+                 double angle) {
   if (objective.time) return std::abs(angle) / how.yaw_rate * kTicksPerSecond;
-  return std::abs(angle) * objective.turn_arm * objective.turning;
+  return std::abs(angle) * table.turn_arm * objective.turning;
+}
+
+double slide_cost(const Objective& objective, const Connection& how, double length) {
+  if (!objective.time) return std::abs(length);
+  return std::abs(length) / how.sideways_speed * kTicksPerSecond;
 }
 
 // Put the standing time between unlike modes in, and add everything up.
@@ -63,7 +77,7 @@ void add_switches(const MotionTable& table, const Objective& objective, Shot& sh
       if (!objective.time) shot.cost += objective.mode_switch;
       if (table.switch_duration > 0) steps.push_back({-1, {}, table.switch_duration});
     }
-    shot.cost += objective_of(objective, step);
+    shot.cost += objective_of(table, objective, step);
     steps.push_back(step);
   }
   for (const Step& step : steps) shot.duration += step.duration;
@@ -79,10 +93,18 @@ double MotionTable::reach() const {
   return most;
 }
 
-double objective_of(const Objective& objective, const Step& step) {
+double MotionTable::shortest_step() const {
+  double least = reach();
+  for (const Primitive& p : primitives) {
+    if (p.twist.length() > 0.0) least = std::min(least, p.twist.length());
+  }
+  return least;
+}
+
+double objective_of(const MotionTable& table, const Objective& objective, const Step& step) {
   if (objective.time) return step.duration;
   const double length = step.twist.length();
-  if (length == 0.0) return std::abs(step.twist.c) * objective.turn_arm * objective.turning;
+  if (length == 0.0) return std::abs(step.twist.c) * table.turn_arm * objective.turning;
   return length * (step.twist.c != 0.0 ? objective.turning : 1.0);
 }
 
@@ -117,18 +139,27 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
           cost += drive_cost(objective, how, word.length[i] * how.radius,
                              word.turn[i] != Turn::kStraight);
         }
-        offer({cost, &how, word, 0.0, 0.0, 0.0});
+        offer({cost, &how, word, 0.0, 0.0, 0.0, 0.0, false});
       });
+    } else if (how.family == Family::kSlide) {
+      const double ct = std::cos(turn), st = std::sin(turn);
+      const double along = ct * x + st * y, across = -st * x + ct * y;
+      const double cost = turn_cost(table, objective, how, turn) +
+                          drive_cost(objective, how, along, false) +
+                          slide_cost(objective, how, across);
+      for (const bool across_first : {false, true}) {
+        offer({cost, &how, {}, turn, along, across, 0.0, across_first});
+      }
     } else {
       const double distance = std::hypot(x, y);
       const double bearing = distance > kNothing ? std::atan2(y, x) : 0.0;
       for (const double way : {1.0, -1.0}) {
         const double turn0 = wrap(way > 0.0 ? bearing : bearing + std::numbers::pi);
         const double turn1 = wrap(turn - turn0);
-        const double cost = turn_cost(objective, how, turn0) +
+        const double cost = turn_cost(table, objective, how, turn0) +
                             drive_cost(objective, how, way * distance, false) +
-                            turn_cost(objective, how, turn1);
-        offer({cost, &how, {}, turn0, way * distance, turn1});
+                            turn_cost(table, objective, how, turn1);
+        offer({cost, &how, {}, turn0, way * distance, 0.0, turn1, false});
       }
     }
   }
@@ -143,7 +174,9 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
       }
     } else {
       add_turn(*pick.connection, pick.turn0, shot.steps);
-      add_drive(*pick.connection, pick.drive, 0.0, shot.steps);
+      if (pick.across_first) add_slide(*pick.connection, pick.across, shot.steps);
+      add_drive(*pick.connection, pick.along, 0.0, shot.steps);
+      if (!pick.across_first) add_slide(*pick.connection, pick.across, shot.steps);
       add_turn(*pick.connection, pick.turn1, shot.steps);
     }
     add_switches(table, objective, shot);

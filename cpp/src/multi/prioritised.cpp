@@ -78,6 +78,7 @@ void PrioritisedPlanner::require_gaps() {
       from = leg.goal;
       rests[i].push_back({Frame(from), &m.bodies[b]});
     }
+    rests[i].push_back({Frame(from), &m.bodies[static_cast<std::size_t>(agents_[i].rest_body)]});
   }
   required_.assign(n, std::vector<double>(n, 0.0));
   for (std::size_t i = 0; i < n; ++i) {
@@ -151,6 +152,7 @@ TourQuery PrioritisedPlanner::query(std::size_t i, const Traffic* traffic) const
     q.ready = std::max(agent.ready, last.end);
   }
   q.legs = &agent.legs;
+  q.rest_body = agent.rest_body;
   q.traffic = traffic;
   q.required = &required_[i];
   return q;
@@ -163,7 +165,7 @@ bool PrioritisedPlanner::alone(std::size_t i, Budget& budget) {
     fine_[i] = fine;
     const TourResult tour = search_(query(i, nullptr), params_.alone_limit, budget);
     if (tour.outcome == TourResult::Outcome::kFound) return can_alone_[i] = true;
-    if (budget.ended) return true;  // nothing is proven
+    if (tour.outcome == TourResult::Outcome::kStopped) return true;  // nothing is proven
   }
   return false;
 }
@@ -178,17 +180,18 @@ void PrioritisedPlanner::find_precedence(const std::vector<std::size_t>& order, 
     Traffic lone(models_[0].statics[0]->box(), largest_circumradius(models_), reach_of(models_),
                  largest_gap(models_, params_.margin));
     lone.insert(static_cast<int>(i), track(i, tour));
-    const auto crosses = [&](std::size_t j, const Pose& rest) {
+    const auto crosses = [&](std::size_t j, int body, const Pose& rest) {
       for (const Traffic::Presence& who : lone.near(rest.x, rest.y)) {
-        const Mover standing{&model(j).bodies[0], Frame(rest), {}, 0.0, kNever};
+        const Mover standing{
+            &model(j).bodies[static_cast<std::size_t>(body)], Frame(rest), {}, 0.0, kNever};
         if (lone.first_conflict(who, standing, 0.0) >= 0.0) return true;
       }
       return false;
     };
     for (const std::size_t j : order) {
       if (j == i) continue;
-      if (crosses(j, agents_[j].legs.back().goal)) followers_[i].push_back(j);
-      if (crosses(j, agents_[j].start)) followers_[j].push_back(i);
+      if (crosses(j, agents_[j].rest_body, agents_[j].legs.back().goal)) followers_[i].push_back(j);
+      if (crosses(j, 0, agents_[j].start)) followers_[j].push_back(i);
     }
   }
 }
@@ -271,30 +274,56 @@ void PrioritisedPlanner::keep_best() {
   best_.planned = planned_;
 }
 
-// An unplanned robot stands at its start for ever: take back plans that run into one.
+// First tick at which an unplanned robot, driving what it is committed to and then standing,
+// meets another's track; negative if never.
+double PrioritisedPlanner::first_meeting(const Traffic& others, int other, std::size_t i) const {
+  const double required = required_[i][static_cast<std::size_t>(other)];
+  const Traffic::Presence always{other, 0, kNever};
+  Frame at(agents_[i].start);
+  const Body* body = &model(i).bodies[0];
+  Ticks t = 0;
+  for (const TimedPiece& p : agents_[i].committed) {
+    body = &model(i).bodies[static_cast<std::size_t>(p.body)];
+    at = Frame(p.start);
+    const Mover driving{body, at, p.twist, static_cast<double>(p.begin),
+                        static_cast<double>(p.end - p.begin)};
+    const double when = others.first_conflict(always, driving, required);
+    if (when >= 0.0) return when;
+    at = moved(at, p.twist);
+    t = p.end;
+  }
+  const Mover rest{body, at, {}, static_cast<double>(t), static_cast<double>(kNever - t)};
+  return others.first_conflict(always, rest, required);
+}
+
+// An unplanned robot stands at its start (or where its commitment ends) for ever: take back
+// plans that run into one. What is fixed cannot be taken back; then the plan holds until there.
 void PrioritisedPlanner::settle(TeamResult& result) const {
   const std::size_t n = agents_.size();
+  const auto plannable = [this](std::size_t i) {
+    return !agents_[i].fixed && !agents_[i].legs.empty();
+  };
   for (bool again = true; again;) {
     again = false;
-    Traffic still(models_[0].statics[0]->box(), largest_circumradius(models_), reach_of(models_),
-                  largest_gap(models_, params_.margin));
-    std::vector<std::size_t> standing;
+    result.conflict_free_until = kNever;
+    Traffic others(models_[0].statics[0]->box(), largest_circumradius(models_), reach_of(models_),
+                   largest_gap(models_, params_.margin));
     for (std::size_t i = 0; i < n; ++i) {
-      if (agents_[i].fixed || agents_[i].legs.empty()) continue;
-      if (!result.planned[i]) {
-        standing.push_back(i);
-        continue;
-      }
-      still.insert(static_cast<int>(i), track(i, result.tours[i]));
+      if (result.planned[i]) others.insert(static_cast<int>(i), track(i, result.tours[i]));
     }
-    for (const std::size_t u : standing) {
+    for (std::size_t u = 0; u < n && !again; ++u) {
+      if (result.planned[u]) continue;
       for (std::size_t i = 0; i < n && !again; ++i) {
-        if (agents_[i].fixed || agents_[i].legs.empty() || !result.planned[i]) continue;
-        const Mover rest{&model(u).bodies[0], Frame(agents_[u].start), {}, 0.0, kNever};
-        if (still.first_conflict({static_cast<int>(i), 0, kNever}, rest, required_[u][i]) >= 0.0) {
+        if (!result.planned[i]) continue;
+        const double when = first_meeting(others, static_cast<int>(i), u);
+        if (when < 0.0) continue;
+        if (plannable(i)) {
           result.planned[i] = false;
           result.tours[i] = {};
           again = true;
+        } else {
+          result.conflict_free_until =
+              std::min(result.conflict_free_until, static_cast<Ticks>(when));
         }
       }
     }

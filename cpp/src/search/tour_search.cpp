@@ -11,8 +11,8 @@ namespace clearway {
 
 namespace {
 
-constexpr double kGoalCell = 0.5;  // grid of the obstacle-aware goal distance (m)
-constexpr int kMostDelays = 64;    // departures tried for one motion before it is given up
+constexpr double kCoarsestGoalCell = 0.5, kFinestGoalCell = 0.1;  // of goal distances (m)
+constexpr int kMostDelays = 64;  // departures tried for one motion before it is given up
 constexpr std::int32_t kNone = -1;
 
 struct Node {
@@ -37,6 +37,11 @@ struct Open {
   bool operator<(const Open& other) const { return f != other.f ? f > other.f : node < other.node; }
 };
 
+// Grid of the goal distance: fine enough for a lane that the body just fits.
+double goal_cell(double inradius) {
+  return std::clamp(0.5 * inradius, kFinestGoalCell, kCoarsestGoalCell);
+}
+
 }  // namespace
 
 // One query's search.
@@ -49,7 +54,7 @@ class TourRun {
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
         weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
-        cells_(query.fine ? 0.5 * search.params_.cell : search.params_.cell,
+        cells_((query.fine ? 0.5 : 1.0) * search.params_.cell * table_.shortest_step(),
                (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)) {}
 
   TourResult run(std::int64_t limit, Budget& budget);
@@ -80,6 +85,7 @@ class TourRun {
   const Statics& statics(int leg) const {
     return *q_.model->statics[static_cast<std::size_t>(legs_[static_cast<std::size_t>(leg)].body)];
   }
+  const Body& resting() const { return q_.model->bodies[static_cast<std::size_t>(q_.rest_body)]; }
   int body_leg(int leg) const { return std::min(leg, static_cast<int>(legs_.size()) - 1); }
   double theta(const Node& n) const {
     return headings_[static_cast<std::size_t>(n.leg)]->theta(n.k);
@@ -93,6 +99,8 @@ class TourRun {
   bool conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
                 std::int32_t hits, int* track, Ticks last_departure = 0,
                 Ticks* free_departure = nullptr) const;
+  bool may_stay(const Body& serving, const Frame& at, Ticks arrival, Ticks service, bool last,
+                std::int32_t hits, Ticks* better) const;
   std::int32_t collect(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
                        std::int32_t hits);
   std::int32_t collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
@@ -121,7 +129,7 @@ class TourRun {
   std::int32_t best_ = kNone;  // cheapest complete way so far
   Ticks earliest_rest_ = 0;    // no final rest can begin before
   bool hopeless_ = false;
-  double since_shot_ = 0.0;
+  double since_shot_ = std::numeric_limits<double>::infinity();
 };
 
 void TourRun::prepare() {
@@ -147,12 +155,11 @@ void TourRun::prepare() {
   if (!q_.traffic || q_.penalty) return;
   const Leg& last = legs_.back();
   const Frame rest(last.goal);
-  const int l = static_cast<int>(n) - 1;
   Ticks t = q_.ready;
   while (true) {
-    const Ticks end = safe_until(body(l), rest, t, kNone);
+    const Ticks end = safe_until(resting(), rest, t, kNone);
     if (end >= kNever) break;
-    t = next_free(body(l), rest, end + 1, kNone);
+    t = next_free(resting(), rest, end + 1, kNone);
     if (t >= kNever) {
       hopeless_ = true;  // somebody rests there for ever
       return;
@@ -165,7 +172,8 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
   const auto l = static_cast<std::size_t>(leg);
   const float distance = (*distances_[l])(x, y);
   if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
-  const double metres = std::max(0.0, static_cast<double>(distance) - 0.5 * kGoalCell);
+  const double metres =
+      std::max(0.0, static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
   const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const Frame& goal = goal_frames_[l];
   const Point local = goal.to_local({x, y});
@@ -297,6 +305,25 @@ std::int32_t TourRun::collect_standing(const Body& body, const Frame& at, Ticks 
   return hits;
 }
 
+// Whether a visit's pose can be held from `arrival` through the service, and for ever at the last
+// one, where the body may be another from then on; if not, the next arrival worth trying.
+bool TourRun::may_stay(const Body& serving, const Frame& at, Ticks arrival, Ticks service,
+                       bool last, std::int32_t hits, Ticks* better) const {
+  const Ticks leave = arrival + service;
+  const bool same = !last || &resting() == &serving;
+  Ticks until = safe_until(serving, at, arrival, hits);
+  if (until < (last && same ? kNever : leave)) {
+    *better = next_free(serving, at, until + 1, hits);
+    return false;
+  }
+  if (same) return true;
+  until = safe_until(resting(), at, leave, hits);
+  if (until >= kNever) return true;
+  const Ticks clear = next_free(resting(), at, until + 1, hits);
+  *better = clear >= kNever ? kNever : clear - service;
+  return false;
+}
+
 // Find the first departure at or after `from`, within the parent's safe interval, at which the
 // edge can be driven and its end be occupied as long as needed; push what it leads to. In soft
 // search with `soft`, depart at `from` and pay for whoever is in the way.
@@ -330,7 +357,8 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
       }
       if (last) {
         // Who needs to pass a robot at its final rest can only pass before: that costs again.
-        const std::int32_t met = collect_standing(moving, end, arrival, kNever, kNone);
+        std::int32_t met = collect_standing(moving, end, arrival, arrival + service, kNone);
+        met = collect_standing(resting(), end, arrival + service, kNever, met);
         for (std::int32_t h = met; h != kNone; h = hits_[static_cast<std::size_t>(h)].next) {
           const int track = hits_[static_cast<std::size_t>(h)].track;
           if (price(track) < 0.0) return;
@@ -361,13 +389,11 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
       departure = std::max(departure + 1, later);
       continue;
     }
-    if (target.arrives && q_.traffic) {
-      const std::int32_t spared = last ? kNone : parent.hits;
-      const Ticks until = safe_until(moving, end, arrival, spared);
-      if (until < (last ? kNever : arrival + service)) {
-        const Ticks clear = next_free(moving, end, until + 1, spared);
-        if (clear >= kNever) return;
-        departure = std::max(departure + 1, clear - edge.duration);
+    if (target.arrives) {
+      Ticks better = arrival;
+      if (!may_stay(moving, end, arrival, service, last, last ? kNone : parent.hits, &better)) {
+        if (better >= kNever) return;
+        departure = std::max(departure + 1, better - edge.duration);
         continue;
       }
     }
@@ -468,7 +494,7 @@ void TourRun::shoot(std::int32_t index) {
   const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
   const double distance = (*distances_[static_cast<std::size_t>(node.leg)])(node.x, node.y);
   since_shot_ += 1.0;
-  if (since_shot_ < 1.0 + distance) return;
+  if (since_shot_ < 1.0 + distance && !node.arrives) return;  // a new leg tries at once
   since_shot_ = 0.0;
   const Pose from{node.x, node.y, theta(node)};
   connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_);
@@ -604,6 +630,8 @@ TourResult TourRun::extract(std::int32_t goal) {
       stand(result.stops.back().leave);
     }
   }
+  // From now on it stands with this body.
+  result.pieces.push_back({t, t + 1, at, {}, -1, q_.rest_body});
   result.arrival = result.stops.empty() ? 0 : result.stops.back().arrive;
   return result;
 }
@@ -618,7 +646,8 @@ const GoalDistance& TourSearch::goal_distance(const Statics& statics, double rad
   const auto key = std::make_tuple(&statics, radius, goal.x, goal.y);
   const auto found = goal_distances_.find(key);
   if (found != goal_distances_.end()) return found->second;
-  return goal_distances_.emplace(key, GoalDistance(statics, radius, goal.x, goal.y, kGoalCell))
+  return goal_distances_
+      .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, goal_cell(radius)))
       .first->second;
 }
 

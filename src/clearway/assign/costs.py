@@ -7,7 +7,7 @@ from itertools import accumulate, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from clearway.model import Footprint, Pose, Robot, Scenario, Task
+from clearway.model import LOAD_CHANGE, Footprint, Pose, Robot, Scenario, Task
 from clearway.protocols import EQUAL_WEIGHTS, AssignmentProblem, Weights
 from clearway.world.grid import Grid
 
@@ -16,8 +16,6 @@ Floats = NDArray[np.float64]
 # Cells (m) and by how much they are let nearer to obstacles than half a body's width (m): the
 # second ones find every straight passage that is as wide as the body.
 CELLS = ((1.0, 0.0), (0.25, 0.125))
-
-LOAD_CHANGE = {"pick": 1, "drop": -1, None: 0}
 
 
 def build(scenario: Scenario, weights: Weights = EQUAL_WEIGHTS) -> AssignmentProblem:

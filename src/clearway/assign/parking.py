@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from clearway.assign.costs import LOAD_CHANGE, half_width
-from clearway.model import Pose, Robot, RobotType, Site, Visit
+from clearway.assign.costs import half_width
+from clearway.model import LOAD_CHANGE, Pose, Robot, RobotType, Site, Visit
 from clearway.world.grid import Grid
 from clearway.world.shapes import Shape, ShapeIndex, body_shape
 

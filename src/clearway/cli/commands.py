@@ -2,20 +2,19 @@
 
 import argparse
 import json
-import sys
 import time
 from collections.abc import Callable
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from clearway.cli.main import BAD_INPUT, DONE, INTERRUPTED, NO_ANSWER, WRONG
+from clearway.cli.main import BAD_INPUT, DONE, INTERRUPTED, NO_ANSWER, WRONG, interrupted
 from clearway.cli.progress import ProgressLine
-from clearway.cli.run_folder import write_run
+from clearway.cli.run_folder import write_plan_first, write_rest
 from clearway.formats.scenario_file import read_scenario
 from clearway.model import Scenario
 from clearway.protocols import Budget
-from clearway.systems.solve import Run, solve
+from clearway.systems.solve import Run, judge_plan, make_plan
 
 
 def _print_json(content: dict[str, Any]) -> None:
@@ -24,17 +23,23 @@ def _print_json(content: dict[str, Any]) -> None:
 
 def _solve(arguments: argparse.Namespace, source: Path, scenario: Scenario) -> int:
     out = Path(arguments.out)
-    out.mkdir(parents=True, exist_ok=True)
     with ProgressLine(quiet=arguments.quiet) as line:
-        run = solve(
+        planned = make_plan(
             scenario,
             budget=Budget(arguments.budget, arguments.expansions),
             seed=arguments.seed,
             progress=line.planning,
             clock=time.process_time,
         )
-        line.say("writing the run folder")
-        written = write_run(run, source, out)
+        # The plan is kept before anything else is done with it.
+        written = write_plan_first(planned, source, out)
+        try:
+            line.say("judging")
+            run = judge_plan(planned, clock=time.process_time)
+            line.say("writing the run folder")
+            written += write_rest(run, out)
+        except KeyboardInterrupt:
+            return interrupted(arguments, f"the plan is in {out / 'plan.json'}")
     code = _exit_code(run)
     if arguments.json:
         _print_json({**_summary(run), "files": [str(path) for path in written]})
@@ -228,15 +233,15 @@ def run_bench(arguments: argparse.Namespace) -> int:
             Path(arguments.out),
             robots=arguments.robots,
             tasks=arguments.tasks,
-            seeds=range(arguments.instances),
+            seeds=range(arguments.seed or 0, (arguments.seed or 0) + arguments.instances),
             budget=Budget(arguments.budget, arguments.expansions),
             tell=line.say,
         )
     if arguments.json:
         _print_json(table.summary)
     else:
-        print(table.markdown, file=sys.stdout)
-    return DONE
+        print(table.markdown)
+    return INTERRUPTED if table.interrupted else DONE
 
 
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {

@@ -12,9 +12,12 @@ DONE, WRONG, BAD_INPUT, NO_ANSWER, INTERRUPTED = 0, 1, 2, 3, 130
 class _Parser(argparse.ArgumentParser):
     """Usage errors leave by exit code 2, as JSON where that was asked for."""
 
+    asks_json = False
+
     def error(self, message: str) -> NoReturn:
-        if "--json" in sys.argv[1:]:
-            print(json.dumps({"error": {"kind": "usage", "message": message}}))
+        if _Parser.asks_json:
+            told = {"code": BAD_INPUT, "kind": "usage", "message": message}
+            print(json.dumps({"error": told}))
         else:
             self.print_usage(sys.stderr)
             print(f"clearway: error: {message}", file=sys.stderr)
@@ -22,17 +25,19 @@ class _Parser(argparse.ArgumentParser):
 
 
 def _positive(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
     if not 0.0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"must be a number of seconds above 0, got {text}")
     return value
 
 
 def _count(text: str) -> int:
-    value = int(text)
-    if value < 0:
-        raise argparse.ArgumentTypeError(f"must be 0 or above, got {text}")
-    return value
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"must be a whole number, 0 or above, got {text}")
+    return int(text)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -92,6 +97,11 @@ def _fail(arguments: argparse.Namespace, code: int, error: dict[str, Any]) -> in
     return code
 
 
+def interrupted(arguments: argparse.Namespace, kept: str) -> int:
+    """Tell what an interrupt left; return its exit code."""
+    return _fail(arguments, INTERRUPTED, {"kind": "interrupted", "message": kept})
+
+
 def _described(error: Exception, file: str | None) -> dict[str, Any]:
     """Return what is known of an input error: file, key, value and mend where it has them."""
     told: dict[str, Any] = {"kind": "bad input", "message": str(error)}
@@ -100,7 +110,7 @@ def _described(error: Exception, file: str | None) -> dict[str, Any]:
     for name in ("file", "key", "mend"):
         if getattr(error, name, None) is not None:
             told[name] = getattr(error, name)
-    if hasattr(error, "value"):
+    if hasattr(error, "value") and type(error.value) is not object:
         told["value"] = repr(error.value)[:200]
     if hasattr(error, "findings"):
         told["findings"] = [finding.text for finding in error.findings]
@@ -113,13 +123,15 @@ def _described(error: Exception, file: str | None) -> dict[str, Any]:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; return its exit code."""
-    arguments = _parser().parse_args(argv)
+    given = sys.argv[1:] if argv is None else list(argv)
+    _Parser.asks_json = "--json" in given
+    arguments = _parser().parse_args(given)
     from clearway.cli import commands
 
     try:
         return commands.COMMANDS[arguments.command](arguments)
     except KeyboardInterrupt:
-        return _fail(arguments, INTERRUPTED, {"kind": "interrupted", "message": "nothing written"})
+        return interrupted(arguments, "nothing is written")
     except BrokenPipeError:
         sys.stderr.close()
         return DONE

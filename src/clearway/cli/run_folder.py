@@ -5,27 +5,35 @@ from pathlib import Path
 
 from clearway.formats.atomic import write_bytes, write_text
 from clearway.formats.plan_file import write_plan
-from clearway.systems.solve import Run
+from clearway.systems.solve import Planned, Run
 
 
-def write_run(run: Run, source: Path, out: Path) -> list[Path]:
-    """Write a run into ``out``; return the files.
+def write_plan_first(planned: Planned, source: Path, out: Path) -> list[Path]:
+    """Write the plan and a copy of its scenario into ``out``; return the files."""
+    out.mkdir(parents=True, exist_ok=True)
+    plan, copy = out / "plan.json", out / "scenario.toml"
+    write_plan(planned.record, plan)
+    if source.resolve() != copy.resolve():
+        write_bytes(copy, source.read_bytes())
+    return [plan, copy]
 
-    An interrupted run leaves its plan and scenario only, so that it ends at once.
+
+def write_rest(run: Run, out: Path) -> list[Path]:
+    """Write all that is made from the plan into ``out``; return the files.
+
+    An interrupted run leaves its figures only, so that it ends at once.
     """
     from clearway.metrics import to_json
 
-    plan, copy, metrics = out / "plan.json", out / "scenario.toml", out / "metrics.json"
-    write_plan(run.record, plan)
-    if source.resolve() != copy.resolve():
-        write_bytes(copy, source.read_bytes())
+    metrics = out / "metrics.json"
+    write_plan(run.record, out / "plan.json")  # now with the judge's seconds
     write_text(metrics, json.dumps(to_json(run.metrics), indent=2) + "\n")
-    written = [plan, copy, metrics]
     if run.interrupted:
-        return written
+        return [metrics]
     from clearway.plot.picture import draw_plan
     from clearway.plot.report import write_report
 
-    write_report(run.record, run.metrics, out / "report.html")
-    draw_plan(run.record, out / "plan.png")
-    return [*written, out / "report.html", out / "plan.png"]
+    report, picture = out / "report.html", out / "plan.png"
+    write_report(run.record, run.metrics, report)
+    draw_plan(run.record, picture)
+    return [metrics, report, picture]

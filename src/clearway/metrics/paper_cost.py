@@ -16,13 +16,14 @@ def paper_cost(trajectory: Trajectory, robot_type: RobotType) -> float:
     Turning on the spot counts as an arc of half the body's length.
     """
     arm = robot_type.footprint.length / 2.0
+    has_modes = robot_type.kinematics == "four_wheel"
     cost, mode = 0.0, None
     moving = 0
     for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
         turning = piece.twist[2] != 0.0
         length = piece.length or abs(piece.twist[2]) * arm
         cost += length * (TURNING if turning else 1.0)
-        if mode is not None and piece.mode != mode:
+        if has_modes and mode is not None and piece.mode != mode:
             cost += MODE_SWITCH
         mode = piece.mode
         moving += end - begin

@@ -9,11 +9,12 @@ from clearway.model.record import PlanRecord, Track
 from clearway.model.robot import FOUR_WHEEL_MODES, Battery, Limits, Robot, RobotType
 from clearway.model.scenario import Scenario
 from clearway.model.site import Obstacle, Site, Zone
-from clearway.model.task import Order, Task, Visit
+from clearway.model.task import LOAD_CHANGE, Order, Task, Visit
 from clearway.model.trajectory import Piece, Stop, Trajectory
 
 __all__ = [
     "FOUR_WHEEL_MODES",
+    "LOAD_CHANGE",
     "TICKS_PER_SECOND",
     "Assignment",
     "Battery",

@@ -8,6 +8,9 @@ from clearway.model.pose import Pose, check_pose
 
 Load = Literal["pick", "drop"]
 
+# By how much a visit changes the number of loads on board.
+LOAD_CHANGE: dict[Load | None, int] = {"pick": 1, "drop": -1, None: 0}
+
 
 @dataclass(frozen=True)
 class Visit:

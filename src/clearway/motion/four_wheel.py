@@ -52,11 +52,12 @@ def four_wheel(robot_type: RobotType, headings: int = 16) -> MotionModel:
     modes = tuple(
         Mode(name, direction, turn, speed(direction, turn))
         for name, direction, turn in MODES
-        if name in allowed or name == "stop"
+        if (name in allowed or name == "stop")
+        and not (direction is not None and turn and not radius)
     )
     motions = []
     for mode in modes:
-        if mode.direction is not None and not (mode.turn and radius == 0.0):
+        if mode.direction is not None:
             # Backwards round a centre on the left the heading falls.
             steps = mode.turn * (-1 if mode.direction == BACK else 1)
             twist = (length * math.cos(mode.direction), length * math.sin(mode.direction))
@@ -84,6 +85,8 @@ def four_wheel(robot_type: RobotType, headings: int = 16) -> MotionModel:
         if left and right:
             sideways = ((left, None, None), (right, None, None))
             curves.append(Curve("turn_drive_turn", LEFT, 0.0, *sideways, spin))
+            if ahead[0] and back[0]:
+                curves.append(Curve("slide", AHEAD, 0.0, *straight, spin, (left, right)))
     return MotionModel(
         headings=headings,
         modes=modes,

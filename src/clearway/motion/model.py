@@ -48,17 +48,19 @@ class Curve:
 
     ``reeds_shepp`` drives arcs of ``radius`` (m) and straights along ``direction`` (body-frame
     angle: 0, or pi/2 for transverse curves); ``turn_drive_turn`` turns on the spot, drives
-    straight along ``direction`` and turns again. ``ahead`` and ``back`` name the modes for
-    straight, left and right; ``spin`` those for turning left and right. A way that may not be
-    driven is ``None``.
+    straight along ``direction`` and turns again; ``slide`` turns on the spot, then drives along
+    and across the body in either order, ``sideways`` naming the modes to left and right.
+    ``ahead`` and ``back`` name the modes for straight, left and right; ``spin`` those for
+    turning left and right. A way that may not be driven is ``None``.
     """
 
-    family: Literal["reeds_shepp", "turn_drive_turn"]
+    family: Literal["reeds_shepp", "turn_drive_turn", "slide"]
     direction: float
     radius: float
     ahead: tuple[str | None, str | None, str | None]
     back: tuple[str | None, str | None, str | None]
     spin: tuple[str | None, str | None] = (None, None)
+    sideways: tuple[str, str] | None = None
 
 
 @dataclass(frozen=True)

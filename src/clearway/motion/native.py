@@ -7,6 +7,7 @@ from clearway.motion.model import Curve, MotionModel
 FAMILIES = {
     "reeds_shepp": _core.Family.REEDS_SHEPP,
     "turn_drive_turn": _core.Family.TURN_DRIVE_TURN,
+    "slide": _core.Family.SLIDE,
 }
 
 
@@ -19,6 +20,7 @@ def native_table(model: MotionModel) -> _core.MotionTable:
     table.yaw_rate = model.yaw_rate
     table.rest = [mode.rest for mode in model.modes]
     table.switch_duration = to_ticks(model.mode_switch)
+    table.turn_arm = model.turn_arm
     primitives = []
     for motion in model.motions:
         a, b, c = motion.twist
@@ -63,6 +65,9 @@ def _connection(model: MotionModel, curve: Curve, number: dict[str, int]) -> _co
     native.forward, native.forward_left, native.forward_right = map(index, curve.ahead)
     native.reverse, native.reverse_left, native.reverse_right = map(index, curve.back)
     native.rotate_left, native.rotate_right = map(index, curve.spin)
+    if curve.sideways:
+        native.left, native.right = map(index, curve.sideways)
+        native.sideways_speed = min(top[name] for name in curve.sideways)
     native.forward_speed = straight_speed(curve.ahead[0])
     native.reverse_speed = straight_speed(curve.back[0])
     native.forward_arc_speed = arc_speed(curve.ahead[1], curve.ahead[2])

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from clearway import _core
-from clearway.model import Pose, Problem, RobotType, Site, wrap
+from clearway.model import LOAD_CHANGE, Pose, Problem, RobotType, Site, wrap
 from clearway.world.obstacles import native_body, native_obstacles
 
 
@@ -64,5 +64,5 @@ def lower_bounds(problem: Problem) -> Bounds:
             if i + 1 < len(visits):
                 seconds.append(visit.service)
             at = visit.pose
-            loads += {"pick": 1, "drop": -1, None: 0}[visit.load]
+            loads += LOAD_CHANGE[visit.load]
     return Bounds(math.fsum(seconds), math.fsum(metres))

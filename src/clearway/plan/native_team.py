@@ -3,12 +3,21 @@
 from collections.abc import Sequence
 
 from clearway import _core
-from clearway.model import Piece, Pose, Problem, RobotType, Stop, Trajectory, to_ticks, wrap
+from clearway.model import (
+    LOAD_CHANGE,
+    Piece,
+    Pose,
+    Problem,
+    RobotType,
+    Stop,
+    Trajectory,
+    to_ticks,
+    wrap,
+)
 from clearway.motion import MODELS, MotionModel
 from clearway.motion.native import native_table
 from clearway.world.obstacles import native_body, native_obstacles
 
-LOAD_CHANGE = {"pick": 1, "drop": -1, None: 0}
 COARSE_HEADINGS, FINE_HEADINGS = 16, 32
 
 
@@ -44,7 +53,7 @@ class NativeTeam:
         )
 
     def _body(self, robot_type: str, loads: int) -> int:
-        """Number of the body that a robot has with that many loads."""
+        """Return the number of the body that a robot has with that many loads."""
         return min(int(loads > 0), self.models[self.type_names.index(robot_type)].num_bodies - 1)
 
     def _agent(self, index: int) -> _core.Agent:
@@ -68,6 +77,7 @@ class NativeTeam:
             legs.append(_core.Leg(_core.Pose(*visit.pose), to_ticks(visit.service), body))
             loads += LOAD_CHANGE[visit.load]
         agent.legs = [] if fixed else legs
+        agent.rest_body = self._body(robot.type, loads)
         return agent
 
     def _timed(self, trajectory: Trajectory, type_name: str) -> list[_core.TimedPiece]:

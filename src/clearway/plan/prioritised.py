@@ -1,7 +1,7 @@
 """Prioritised planning with soft search, rip-up and restarts, in the native core."""
 
 from clearway import _core
-from clearway.model import Plan, Problem, Status
+from clearway.model import LOAD_CHANGE, Plan, Problem, Status, to_seconds
 from clearway.motion import MODELS
 from clearway.plan.bounds import lower_bounds
 from clearway.plan.native_team import NativeTeam
@@ -59,6 +59,8 @@ class PrioritisedPlanner:
         progress: Progress | None = None,
     ) -> Plan:
         """Return a plan; see `clearway.protocols.Planner`."""
+        if not problem.robots:
+            return Plan(Status.SOLVED, {}, {}, {}, lower_bound=0.0, cost_lower_bound=0.0)
         team = NativeTeam(problem)
         answer = _core.plan_team(
             team.models,
@@ -71,18 +73,24 @@ class PrioritisedPlanner:
         )
         trajectories = {}
         for i, robot in enumerate(problem.robots):
+            committed = problem.state_of(robot).committed
             if answer.planned[i] and team.agents[i].legs:
                 trajectories[robot.id] = team.trajectory(i, answer.tours[i])
+            elif committed:
+                trajectories[robot.id] = committed
         trajectories.update(problem.fixed)
         bounds = lower_bounds(problem)
         concerned = team.ids(answer.concerned)
-        status, reason = _verdict(problem, answer, concerned)
+        status, reason = _verdict(problem, answer, concerned, self.params.restarts)
         return Plan(
             status=status,
             reason=reason,
             concerned=concerned,
             trajectories=trajectories,
             tours=problem.tours,
+            conflict_free_until=None
+            if answer.conflict_free_until >= _core.NEVER
+            else to_seconds(answer.conflict_free_until),
             assignment={robot.id: _tasks_in_order(problem, robot.id) for robot in problem.robots},
             lower_bound=bounds.seconds,
             cost_lower_bound=bounds.metres,
@@ -107,14 +115,24 @@ def _walled_in(problem: Problem, robot_id: str) -> bool:
 
     robot = next(robot for robot in problem.robots if robot.id == robot_id)
     robot_type = problem.robot_types[robot.type]
-    reach = BodyReach(problem.site, robot.type, False, robot_type.footprint)
-    poses = [problem.state_of(robot).pose, *(v.pose for v in problem.tours[robot_id])]
-    components = {reach.component(pose) for pose in poses}
-    return len(components) > 1 or 0 in components
+    state = problem.state_of(robot)
+    at, loads = state.pose, int(state.loaded)
+    reaches: dict[bool, BodyReach] = {}
+    for visit in problem.tours[robot_id]:
+        loaded = loads > 0
+        if loaded not in reaches:
+            shape = robot_type.shape(loaded)
+            reaches[loaded] = BodyReach(problem.site, robot.type, loaded, shape)
+        here, there = (reaches[loaded].component(pose) for pose in (at, visit.pose))
+        if here != there or here == 0:
+            return True
+        at = visit.pose
+        loads += LOAD_CHANGE[visit.load]
+    return False
 
 
 def _verdict(
-    problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...]
+    problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...], restarts: int
 ) -> tuple[Status, str | None]:
     names = ", ".join(concerned)
     if answer.status == _core.TeamStatus.SOLVED:
@@ -131,4 +149,6 @@ def _verdict(
             f"no plan on this lattice for {names}, alone on the site and with 32 headings; "
             "widen the passage or move the goal"
         )
+    if answer.restarts > restarts:
+        return Status.STOPPED, f"no plan in {restarts} restarts; not planned: {names}"
     return Status.STOPPED, f"the budget ended; not planned: {names}"

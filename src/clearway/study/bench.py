@@ -24,6 +24,7 @@ class BenchTable:
     rows: tuple[dict[str, Any], ...]
     summary: dict[str, Any]
     markdown: str
+    interrupted: bool = False
 
 
 def bench_warehouse(
@@ -57,11 +58,13 @@ def bench_warehouse(
         write_plan(run.record, out / "plans" / f"{name}.json")
         write_text(out / "rows.jsonl", "".join(json.dumps(row) + "\n" for row in rows))
         if run.interrupted:
+            del rows[-1]  # it tells of the interrupt, not of the instance
             break
     summary = _summary(f"warehouse-{robots}x{tasks}", rows)
     markdown = _markdown(summary)
     write_text(out / "table.md", markdown + "\n")
-    return BenchTable(tuple(rows), summary, markdown)
+    stopped = bool(rows) and len(rows) < len(seeds)
+    return BenchTable(tuple(rows), summary, markdown, stopped)
 
 
 def _row(name: str, record: PlanRecord, seed: int, wall: float, wrong: int) -> dict[str, Any]:

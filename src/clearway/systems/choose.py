@@ -1,23 +1,15 @@
 """The system that a scenario names, with its settings checked."""
 
 import json
-from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
 
 from clearway.coordinate import System
 from clearway.model import Scenario
 from clearway.systems.hierarchical import HierarchicalSettings, hierarchical
+from clearway.systems.settings import SettingsError
 
 SYSTEMS = {"hierarchical": (HierarchicalSettings, hierarchical)}
-
-
-class SettingsError(ValueError):
-    """A system or setting that does not exist or does not fit; names key, value and mend."""
-
-    def __init__(self, key: str, value: Any, mend: str) -> None:
-        self.key, self.value, self.mend = key, value, mend
-        super().__init__(f"{key}: got {value!r}; {mend}")
 
 
 def choose_system(scenario: Scenario) -> System:
@@ -40,6 +32,9 @@ def choose_system(scenario: Scenario) -> System:
         settings = TypeAdapter(settings_type).validate_json(given, strict=True)
     except ValidationError as error:
         first = error.errors()[0]
+        cause = first.get("ctx", {}).get("error")
+        if isinstance(cause, SettingsError):
+            raise cause from None
         key = ".".join(str(part) for part in first["loc"])
         raise SettingsError(f"system.{key}", first["input"], first["msg"]) from None
     return build(settings)

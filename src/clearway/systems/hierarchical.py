@@ -4,6 +4,7 @@ Zhang, An, Niu, Bao, Wang, Wang, "An Enhanced Hybrid Metaheuristic for Hierarchi
 in 4WIDS Multi-robot Systems under Confined Environments", Control Engineering Practice.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
@@ -14,6 +15,7 @@ from clearway.coordinate import System
 from clearway.model import Scenario, Visit
 from clearway.plan import PrioritisedPlanner, TeamParams
 from clearway.protocols import Assigner, Weights
+from clearway.systems.settings import SettingsError
 
 
 @dataclass(frozen=True)
@@ -44,6 +46,13 @@ class HierarchicalSettings:
     park: Literal["blocking", "always", "never"] = "blocking"
     objective: Literal["time", "paper"] = "time"
     weight: float = 1.3
+
+    def __post_init__(self) -> None:
+        for name in ("max_distance", "total_distance", "turning"):
+            if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
+                raise SettingsError(f"system.{name}", getattr(self, name), "write 0 or above")
+        if not (math.isfinite(self.weight) and self.weight > 0.0):
+            raise SettingsError("system.weight", self.weight, "write a number above 0")
 
 
 def hierarchical(settings: HierarchicalSettings) -> System:

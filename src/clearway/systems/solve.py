@@ -21,28 +21,37 @@ class IllegalScenario(ValueError):
     """A scenario whose own poses cannot be; ``findings`` hold all that is wrong."""
 
     def __init__(self, findings: tuple[Finding, ...]) -> None:
-        self.findings = findings
-        first, more = findings[0], len(findings) - 1
+        # First what makes all else pointless.
+        ordered = sorted(findings, key=lambda finding: finding.kind != "no_room")
+        self.findings = tuple(ordered)
+        first, more = ordered[0], len(ordered) - 1
+        self.key = first.key
         tail = f" (and {more} more)" if more else ""
         super().__init__(f"{first.key}: {first.text}{tail}")
 
 
 @dataclass(frozen=True)
-class Run:
-    """A plan with its record, figures and the judge's findings.
-
-    ``interrupted`` tells that a person stopped the search; then separations are not measured.
-    """
+class Planned:
+    """A plan with its record, not judged yet."""
 
     plan: Plan
     record: PlanRecord
-    metrics: Metrics
-    violations: tuple[Violation, ...]
 
     @property
     def interrupted(self) -> bool:
         """Whether a person stopped the search."""
         return bool(self.plan.counters.get("interrupted"))
+
+
+@dataclass(frozen=True)
+class Run(Planned):
+    """A plan with its record, figures and the judge's findings.
+
+    Where a person stopped the search, separations are not measured.
+    """
+
+    metrics: Metrics
+    violations: tuple[Violation, ...]
 
 
 def solve(
@@ -72,24 +81,38 @@ def solve(
     ValueError
         If the system or a setting is unknown, or a part cannot take a feature.
     """
-    now = clock or (lambda: 0.0)
-    begin = now()
+    planned = make_plan(
+        scenario, system=system, budget=budget, seed=seed, progress=progress, clock=clock
+    )
+    return judge_plan(planned, clock=clock)
+
+
+def make_plan(
+    scenario: Scenario,
+    *,
+    system: System | None = None,
+    budget: Budget | None = None,
+    seed: int | None = None,
+    progress: Progress | None = None,
+    clock: Clock | None = None,
+) -> Planned:
+    """Check, assign and plan a scenario; see `solve`."""
+    lap = _Laps(clock)
     legality = check_scenario(scenario)
     if not legality:
         raise IllegalScenario(legality.errors)
     chosen = system or choose_system(scenario)
     seed = scenario.seed if seed is None else seed
-    checked = now()
-    assigned: list[float] = []
+    lap("check_s")
     plan = plan_once(
         scenario,
         chosen,
         budget or Budget(),
         seed,
         progress,
-        before_planning=lambda: assigned.append(now()),
+        before_planning=lambda: lap("assign_s"),
     )
-    planned = now()
+    lap("plan_s")
     types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
     cost = sum(paper_cost(path, types[id_]) for id_, path in plan.trajectories.items())
     record = record_plan(
@@ -101,19 +124,33 @@ def solve(
         cost_name="paper",
         parameters=chosen.parameters,
     )
-    sampled = now()
+    lap("sample_s")
+    return Planned(plan, replace(record, timings=lap.seconds))
+
+
+def judge_plan(planned: Planned, *, clock: Clock | None = None) -> Run:
+    """Judge a plan and measure it."""
+    lap = _Laps(clock)
+    record = planned.record
     violations = tuple(validate_plan(record))
     # Who presses Ctrl-C wants the end, not the closest encounters.
-    interrupted = plan.counters.get("interrupted")
-    metrics = plan_metrics(record, [] if interrupted else separations(record), len(violations))
-    judged = now()
-    if clock:
-        timings = {
-            "check_s": checked - begin,
-            "assign_s": assigned[0] - checked,
-            "plan_s": planned - assigned[0],
-            "sample_s": sampled - planned,
-            "judge_s": judged - sampled,
-        }
-        record = replace(record, timings={k: round(v, 4) for k, v in timings.items()})
-    return Run(plan, record, metrics, violations)
+    apart = [] if planned.interrupted else separations(record)
+    metrics = plan_metrics(record, apart, len(violations))
+    lap("judge_s")
+    record = replace(record, timings={**record.timings, **lap.seconds})
+    return Run(planned.plan, record, metrics, violations)
+
+
+class _Laps:
+    """Seconds between calls, by name; empty without a clock."""
+
+    def __init__(self, clock: Clock | None) -> None:
+        self._clock = clock
+        self._last = clock() if clock else 0.0
+        self.seconds: dict[str, float] = {}
+
+    def __call__(self, name: str) -> None:
+        if self._clock:
+            now = self._clock()
+            self.seconds[name] = round(now - self._last, 4)
+            self._last = now

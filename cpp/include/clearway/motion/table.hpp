@@ -27,7 +27,7 @@ struct Primitive {
   std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits
 };
 
-enum class Family { kReedsShepp, kTurnDriveTurn };
+enum class Family { kReedsShepp, kTurnDriveTurn, kSlide };
 
 // How one family of analytic curves is driven: body direction, speeds (m/s, rad/s), modes.
 struct Connection {
@@ -40,6 +40,8 @@ struct Connection {
   int forward = -1, reverse = -1;                           // modes
   int forward_left = -1, forward_right = -1, reverse_left = -1, reverse_right = -1;
   int rotate_left = -1, rotate_right = -1;
+  double sideways_speed = 0.0;  // slide: across the body
+  int left = -1, right = -1;
 };
 
 // Weights of the objective: cost = time_weight * seconds moving + length * (1 or turning) + ...
@@ -48,7 +50,6 @@ struct Objective {
   double turning = 2.0;      // factor on length while turning
   double mode_switch = 3.0;  // per change of moving mode (m)
   double waiting = 0.1;      // per second of standing that is not service
-  double turn_arm = 0.0;     // turning on the spot counts as an arc of this radius (m)
 };
 
 struct Step {
@@ -64,7 +65,10 @@ struct MotionTable {
   std::vector<bool> rest;  // per mode: may the robot wait in it?
   std::vector<Primitive> primitives;
   std::vector<Connection> connections;
+  double turn_arm = 0.0;      // turning on the spot costs as an arc of this radius (m)
   Ticks switch_duration = 0;  // standing time of a change of moving mode
+
+  double shortest_step() const;  // of the primitives that travel (m)
 
   // Longest straight distance between the ends of a primitive or any point on it (m).
   double reach() const;
@@ -77,7 +81,7 @@ struct Shot {
   double cost = 0.0;  // objective value without waiting
 };
 
-double objective_of(const Objective& objective, const Step& step);
+double objective_of(const MotionTable& table, const Objective& objective, const Step& step);
 
 // The best `count` ways from one pose to another, cheapest first.
 void connect(const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,

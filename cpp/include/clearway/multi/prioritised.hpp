@@ -18,6 +18,7 @@ struct Agent {
   Ticks ready = 0;  // pieces up to here are committed
   std::vector<TimedPiece> committed;
   std::vector<Leg> legs;
+  int rest_body = 0;  // with which it stands after the last leg
   bool fixed = false;
 };
 
@@ -41,7 +42,8 @@ struct TeamResult {
   Status status = Status::kStopped;
   std::vector<TourResult> tours;  // empty pieces where a robot is not planned
   std::vector<bool> planned;
-  std::vector<int> concerned;  // robots without a plan, or stuck
+  std::vector<int> concerned;          // robots without a plan, or stuck
+  Ticks conflict_free_until = kNever;  // sooner where what is fixed runs over an unplanned robot
   std::int64_t expansions = 0;
   int searches = 0, rip_ups = 0, restarts = 0;
 };
@@ -70,6 +72,7 @@ class PrioritisedPlanner {
   std::vector<std::size_t> by_precedence(std::vector<std::size_t> order) const;
   Attempt attempt(std::vector<std::size_t> order, Budget& budget);
   void keep_best();
+  double first_meeting(const Traffic& others, int other, std::size_t i) const;
   void settle(TeamResult& result) const;
   const Model& model(std::size_t i) const {
     return models_[static_cast<std::size_t>(agents_[i].model)];

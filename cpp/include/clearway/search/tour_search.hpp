@@ -36,7 +36,7 @@ struct SearchParams {
   double weight = 1.3;         // on the heuristic: larger is greedier
   double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
-  double cell = 1.0;           // poses in one cell (m) and heading compete
+  double cell = 0.85;          // poses in one cell compete; in shortest steps of the table
   std::size_t shot_words = 2;  // analytic connections tried at a time
 };
 
@@ -47,6 +47,7 @@ struct TourQuery {
   int mode = -1;
   Ticks ready = 0;
   const std::vector<Leg>* legs = nullptr;
+  int rest_body = 0;                              // with which it stands after the last visit
   const Traffic* traffic = nullptr;               // null: alone on the site
   const std::vector<double>* required = nullptr;  // gap to each track
   const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;

@@ -1,0 +1,64 @@
+"""Settings of a system are checked before anything runs."""
+
+from dataclasses import replace
+
+import pytest
+from tests.systems.sites import hall
+
+from clearway.assign import InsertionLocalSearch, RandomAssigner
+from clearway.protocols import Weights
+from clearway.systems import HierarchicalSettings, SettingsError, choose_system
+
+
+def chosen(**settings):
+    return choose_system(replace(hall(), settings=settings))
+
+
+def test_without_settings_the_defaults_hold():
+    """The parameters of the system are its settings, one by one."""
+    system = chosen()
+    assert system.name == "hierarchical"
+    assert isinstance(system.assign, InsertionLocalSearch)
+    assert set(system.parameters) == set(HierarchicalSettings.__dataclass_fields__)
+
+
+def test_settings_reach_their_parts():
+    """Assigner, weights, search weight and objective."""
+    system = chosen(assign="random", turning=0.0, weight=2.5, objective="paper")
+    assert isinstance(system.assign, RandomAssigner)
+    assert system.weights == Weights(1.0, 1.0, 0.0)
+    assert system.plan.params.search.weight == 2.5
+    assert not system.plan.params.objective.time
+    assert chosen().plan.params.objective.time
+
+
+def test_a_whole_number_serves_where_a_number_is_wanted():
+    """TOML tells 2 from 2.0; people do not."""
+    assert chosen(weight=2).plan.params.search.weight == 2.0
+
+
+@pytest.mark.parametrize(
+    ("settings", "key", "mend"),
+    [
+        ({"wieght": 2.0}, "system.wieght", "weight"),
+        ({"weight": "2.0"}, "system.weight", "number"),
+        ({"park": "sometimes"}, "system.park", "never"),
+        ({"even": 1}, "system.even", "boolean"),
+        ({"weight": 0.0}, "system.weight", "above 0"),
+        ({"weight": -2.0}, "system.weight", "above 0"),
+        ({"turning": -1.0}, "system.turning", "0 or above"),
+    ],
+)
+def test_a_setting_that_does_not_fit_is_named(settings, key, mend):
+    """Key, value and what would do instead."""
+    with pytest.raises(SettingsError) as error:
+        chosen(**settings)
+    assert error.value.key == key
+    assert repr(next(iter(settings.values()))) in str(error.value)
+    assert mend in error.value.mend
+
+
+def test_an_unknown_system_is_told_which_there_are():
+    """The known ones are listed."""
+    with pytest.raises(SettingsError, match=r"system\.name.*'hierarchic'.*hierarchical"):
+        choose_system(replace(hall(), system="hierarchic"))

@@ -1,0 +1,91 @@
+"""System A as a composition."""
+
+from dataclasses import replace
+
+from tests.systems.sites import CARRIER, hall
+
+from clearway.model import Order, Pose, Robot, Site, Status, Task, Visit, Zone
+from clearway.protocols import Budget
+from clearway.systems import choose_system, solve
+
+ENOUGH = Budget(expansions=50_000)
+
+
+def bay_hall(park):
+    """A hall with a bay for each of two robots."""
+    bays = tuple(
+        Zone(
+            f"bay-{k}",
+            "parking",
+            ((1, y - 1), (5, y - 1), (5, y + 1), (1, y + 1)),
+            Pose(3.0, y, 0.0),
+        )
+        for k, y in ((1, 1.5), (2, 10.5))
+    )
+    base = hall()
+    return hall(site=replace(base.site, zones=bays), settings={"park": park})
+
+
+def ends(run):
+    return {robot: tour[-1].task for robot, tour in run.plan.tours.items() if tour}
+
+
+def test_robots_park_always_or_never_as_they_are_told():
+    """Parking is a visit without a task, at the end of the tour."""
+    always = solve(bay_hall("always"), budget=ENOUGH)
+    assert set(ends(always).values()) == {None}
+    assert always.violations == ()
+    assert always.plan.status is Status.SOLVED
+    never = solve(bay_hall("never"), budget=ENOUGH)
+    assert None not in ends(never).values()
+
+
+def test_parking_is_not_a_task():
+    """It is in nobody's assignment."""
+    run = solve(bay_hall("always"), budget=ENOUGH)
+    assert sorted(task for done in run.record.assignment.values() for task in done) == ["t1", "t2"]
+
+
+def test_an_even_split_gives_everybody_as_many():
+    """Four tasks beside one robot: two each if even, or as it comes if not."""
+    orders = tuple(
+        Order(Task(f"t{k}", (Visit(f"t{k}", Pose(8.0 + 4.5 * k, 2.0, 0.0)),))) for k in range(4)
+    )
+    run = solve(hall(orders=orders, settings={"even": True}), budget=ENOUGH)
+    assert [len(done) for done in run.record.assignment.values()] == [2, 2]
+
+
+def test_plans_for_the_paper_objective_are_right():
+    """Metres, turning and mode switches are minimised instead of time."""
+    run = solve(hall(settings={"objective": "paper"}), budget=ENOUGH)
+    assert run.violations == ()
+    assert run.record.cost_name == "paper"
+    assert run.record.cost >= run.record.cost_lower_bound - 1e-6
+
+
+def test_two_seeds_are_two_choices_of_random_tasks():
+    """The random assigner draws from the seed alone."""
+    site = Site(((0, 0), (60, 0), (60, 12), (0, 12)))
+    orders = tuple(
+        Order(Task(f"t{k}", (Visit(f"t{k}", Pose(8.0 + 4.5 * k, 6.0, 0.0)),))) for k in range(8)
+    )
+    scenario = hall(
+        site=site,
+        orders=orders,
+        robots=(
+            Robot("a", CARRIER.name, Pose(3.0, 1.5, 0.0)),
+            Robot("b", CARRIER.name, Pose(3.0, 10.5, 0.0)),
+        ),
+        settings={"assign": "random"},
+    )
+    shared = {
+        tuple(solve(scenario, budget=Budget(expansions=0), seed=seed).record.assignment.items())
+        for seed in range(6)
+    }
+    assert len(shared) > 1
+
+
+def test_a_system_is_a_value_made_anew():
+    """Two scenarios of other settings do not share parts."""
+    one, other = choose_system(hall()), choose_system(hall(settings={"weight": 3.0}))
+    assert one.plan.params.search.weight != other.plan.params.search.weight
