@@ -114,7 +114,8 @@ TEST_CASE("Gaps to segments are exact in depth and never above the distance") {
   for (int i = 0; i < 4000; ++i) {
     const Body& body = bodies[static_cast<std::size_t>(dice.below(2))];
     const Frame f(dice.pose(2.0));
-    const Segment s{{dice.between(-1, 3), dice.between(-1, 3)}, {dice.between(-1, 3), dice.between(-1, 3)}};
+    const Segment s{{dice.between(-1, 3), dice.between(-1, 3)},
+                    {dice.between(-1, 3), dice.between(-1, 3)}};
     const double found = gap(body, f, s);
     const double truth =
         scenes::true_gap(scenes::placed(body.parts()[0].vertices(), f), {s.p, s.q});
@@ -137,8 +138,9 @@ TEST_CASE("A segment without length is a point") {
 
 TEST_CASE("Cover circles hold every point of a body") {
   scenes::Dice dice(14);
-  for (const Body& body : {scenes::rectangle(6.0, 1.0), scenes::rectangle(0.8, 3.0), scenes::forklift(),
-                           scenes::kite(3, 1.0, 0.5), scenes::kite(12, 1.0, 0.0)}) {
+  for (const Body& body :
+       {scenes::rectangle(6.0, 1.0), scenes::rectangle(0.8, 3.0), scenes::forklift(),
+        scenes::kite(3, 1.0, 0.5), scenes::kite(12, 1.0, 0.0)}) {
     for (int i = 0; i < 4000; ++i) {
       const Point p{dice.between(-4, 4), dice.between(-4, 4)};
       bool inside = false;

@@ -57,7 +57,10 @@ TEST_CASE("Nothing is lost or mixed up while the table grows past many thousand 
     for (int iy = 0; iy < 60; ++iy) {
       for (int k = 0; k < 8; ++k) {
         const auto begin = static_cast<Ticks>(dice.between(0, 1000));
-        entries.push_back({0.5 * ix - 10.0 + 0.2, 0.5 * iy - 10.0 + 0.2, k, ix % 3,
+        entries.push_back({0.5 * ix - 10.0 + 0.2,
+                           0.5 * iy - 10.0 + 0.2,
+                           k,
+                           ix % 3,
                            {begin, begin + 100, static_cast<double>(begin)}});
         const Entry& e = entries.back();
         cells.add(e.x, e.y, e.k, e.leg, 0, e.interval);

@@ -28,7 +28,8 @@ double grid_way(const Obstacles& o, double radius, Point from, Point to, double 
   const auto free = [&](Point p) { return is_free(o, radius, p); };
   std::vector<char> open(static_cast<std::size_t>(w * h));
   for (int y = 0; y < h; ++y) {
-    for (int x = 0; x < w; ++x) open[static_cast<std::size_t>(y * w + x)] = free({x * cell, y * cell});
+    for (int x = 0; x < w; ++x)
+      open[static_cast<std::size_t>(y * w + x)] = free({x * cell, y * cell});
   }
   std::vector<double> cost(open.size(), 1e30);
   using Item = std::pair<double, int>;
@@ -108,8 +109,10 @@ TEST_CASE("Never longer than a way that a fine grid finds, never shorter than th
     o.discs.push_back({dice.between(3, 9), dice.between(3, 9), 0.7});
     const double radius = scene % 2 ? 0.4 : 0.15;
     Geodesic geodesic(o, radius);
-    for (const auto& [from, to] : {std::pair{Point{1, 1}, Point{11, 11}}, {Point{1, 11}, Point{11, 1}},
-                                   {Point{6, 1}, Point{6, 11}}, {Point{1, 6}, Point{11, 6}}}) {
+    for (const auto& [from, to] : {std::pair{Point{1, 1}, Point{11, 11}},
+                                   {Point{1, 11}, Point{11, 1}},
+                                   {Point{6, 1}, Point{6, 11}},
+                                   {Point{1, 6}, Point{11, 6}}}) {
       if (!is_free(o, radius, from) || !is_free(o, radius, to)) continue;
       const double found = geodesic(from, to), slow = grid_way(o, radius, from, to, 0.1);
       const double line = std::hypot(to.x - from.x, to.y - from.y);

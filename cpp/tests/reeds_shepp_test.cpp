@@ -24,7 +24,8 @@ double miss(const Word& word, double x, double y, double phi) {
 
 }  // namespace
 
-TEST_CASE("Every word ends at its goal, and none is shorter than the shortest or than the air line") {
+TEST_CASE(
+    "Every word ends at its goal, and none is shorter than the shortest or than the air line") {
   scenes::Dice dice(21);
   double worst = 0.0, undercut = 0.0;
   int words = 0, lonely = 0;
@@ -49,7 +50,8 @@ TEST_CASE("Every word ends at its goal, and none is shorter than the shortest or
   CHECK(words > 500000);
 }
 
-TEST_CASE("No drive, however it is put together, is shorter than the shortest word to where it ends") {
+TEST_CASE(
+    "No drive, however it is put together, is shorter than the shortest word to where it ends") {
   scenes::Dice dice(22);
   double undercut = 0.0;
   for (int i = 0; i < 100000; ++i) {
@@ -60,7 +62,8 @@ TEST_CASE("No drive, however it is put together, is shorter than the shortest wo
       drive.length[k] = dice.between(-2.0, 2.0);
     }
     const Pose end = end_of(drive);
-    undercut = std::max(undercut, reeds_shepp_length(end.x, end.y, wrap(end.theta)) - drive.total());
+    undercut =
+        std::max(undercut, reeds_shepp_length(end.x, end.y, wrap(end.theta)) - drive.total());
   }
   CHECK(undercut < 1e-6);
 }
@@ -83,7 +86,8 @@ TEST_CASE("Straight ahead and straight back are as long as they look") {
     CHECK(reeds_shepp_length(d, 0, 0) == doctest::Approx(d));
     CHECK(reeds_shepp_length(-d, 0, 0) == doctest::Approx(d));
     const Word back = reeds_shepp_shortest(-d, 0, 0);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(back.size); ++i) CHECK(back.length[i] < 1e-9);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(back.size); ++i)
+      CHECK(back.length[i] < 1e-9);
   }
   CHECK(reeds_shepp_length(0, 0, 0) == doctest::Approx(0.0));
 }

@@ -27,9 +27,7 @@ class Dice {
   explicit Dice(std::uint32_t seed) : bits_(seed) {}
   double between(double low, double high) { return low + (high - low) * (bits_() / 4294967296.0); }
   int below(int n) { return static_cast<int>(between(0.0, n)); }
-  Pose pose(double size) {
-    return {between(0.0, size), between(0.0, size), between(-kPi, kPi)};
-  }
+  Pose pose(double size) { return {between(0.0, size), between(0.0, size), between(-kPi, kPi)}; }
 
  private:
   std::mt19937 bits_;
@@ -199,8 +197,12 @@ inline MotionTable car_table(int headings = 16) {
       // Backwards round a centre on the left the heading falls.
       const int steps = way * turn;
       const int mode = (way > 0 ? 0 : 3) + (turn == 0 ? 0 : turn > 0 ? 1 : 2);
-      t.primitives.push_back({mode, {way * length, 0.0, steps * step}, steps, to_ticks(length),
-                              length * (turn ? 2.0 : 1.0), ~0ULL});
+      t.primitives.push_back({mode,
+                              {way * length, 0.0, steps * step},
+                              steps,
+                              to_ticks(length),
+                              length * (turn ? 2.0 : 1.0),
+                              ~0ULL});
     }
   }
   Connection how;
@@ -234,7 +236,8 @@ inline Model rover(const Body& body, const Obstacles& obstacles, double clearanc
   return model_of(body, obstacles, rover_table(16), rover_table(32), clearance);
 }
 
-inline TimedPiece drive(Ticks begin, Ticks end, const Pose& start, const Twist& twist, int body = 0) {
+inline TimedPiece drive(Ticks begin, Ticks end, const Pose& start, const Twist& twist,
+                        int body = 0) {
   return {begin, end, start, twist, 0, body};
 }
 
@@ -262,8 +265,7 @@ inline double least_gap(const Track& a, const Track& b, Ticks last, Ticks step) 
     const Track::Sight sa = a.at(t), sb = b.at(t);
     const double reach = sa.body->circumradius() + sb.body->circumradius();
     const double apart = std::hypot(sa.frame.x - sb.frame.x, sa.frame.y - sb.frame.y) - reach;
-    least = std::min(least,
-                     apart > 0.1 ? apart : true_gap(*sa.body, sa.frame, *sb.body, sb.frame));
+    least = std::min(least, apart > 0.1 ? apart : true_gap(*sa.body, sa.frame, *sb.body, sb.frame));
   }
   return least;
 }

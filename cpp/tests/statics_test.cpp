@@ -63,8 +63,8 @@ Obstacles cluttered() {
   return o;
 }
 
-double least_on_the_way(const Obstacles& o, const Body& body, const Frame& start, const Twist& motion,
-                        double spacing) {
+double least_on_the_way(const Obstacles& o, const Body& body, const Frame& start,
+                        const Twist& motion, double spacing) {
   const double travel = motion.length() + std::abs(motion.c) * body.circumradius();
   const int samples = std::max(1, static_cast<int>(std::ceil(travel / spacing)));
   double least = 1e300;
@@ -197,6 +197,22 @@ TEST_CASE("No motion jumps a thin wall or a pillar between two clear ends") {
   CHECK(!statics.clear(box, Frame(Pose{8, 2, 0}), {4.0, 0.0, 0.0}, 0.0, step_slack(0.0)));
   CHECK(!statics.clear(box, Frame(Pose{3, 5, 0}), {4.0, 0.0, 0.0}, 0.0, step_slack(0.0)));
   CHECK(statics.clear(box, Frame(Pose{3, 6, 0}), {4.0, 0.0, 0.0}, 0.0, step_slack(0.0)));
+}
+
+TEST_CASE("Two sharp corners do not slip past each other through one another") {
+  // The lower corner of a diamond passes 1.5 mm below the upper one of another: 1.1 mm deep for 3
+  // mm of the way. Steps of 0.8 mm must meet that from wherever they begin.
+  const Body diamond = kite(4, 0.5, 0.0);
+  Obstacles o = hall(20, 10);
+  add_solid(o, {{10, 4.5}, {10.5, 5}, {10, 5.5}, {9.5, 5}});
+  const Statics statics(o, 1.0);
+  Dice dice(46);
+  for (int i = 0; i < 300; ++i) {
+    const double x = dice.between(7.0, 9.0);
+    const Twist past{dice.between(3.2, 4.0), 0.0, 0.0};
+    CHECK(!statics.clear(diamond, Frame(Pose{x, 6.0 - 0.0015, 0}), past, 0.0, step_slack(0.0)));
+    CHECK(statics.clear(diamond, Frame(Pose{x, 6.0, 0}), past, 0.0, step_slack(0.0)));
+  }
 }
 
 TEST_CASE("A bay in the shape of a U takes a body that fits between its arms") {

@@ -206,14 +206,46 @@ TEST_CASE("The objective other than time adds lengths, dearer in turns, and chan
   objective.time = false;
   objective.turning = 2.0;
   objective.mode_switch = 3.0;
-  objective.turn_arm = 0.5;
-  CHECK(objective_of(objective, {0, {4.0, 0.0, 0.0}, 10}) == doctest::Approx(4.0));
-  CHECK(objective_of(objective, {0, {4.0, 0.0, 0.1}, 10}) == doctest::Approx(8.0));
-  CHECK(objective_of(objective, {0, {0.0, 0.0, -1.0}, 10}) == doctest::Approx(1.0));
+  MotionTable table = rover_table();
+  table.turn_arm = 0.5;
+  CHECK(objective_of(table, objective, {0, {4.0, 0.0, 0.0}, 10}) == doctest::Approx(4.0));
+  CHECK(objective_of(table, objective, {0, {4.0, 0.0, 0.1}, 10}) == doctest::Approx(8.0));
+  CHECK(objective_of(table, objective, {0, {0.0, 0.0, -1.0}, 10}) == doctest::Approx(1.0));
   std::vector<Shot> shots;
   // Quarter turn (pi/2 * 0.5 * 2), drive 5, no turn at the end: two modes, one change.
-  connect(rover_table(), objective, {0, 0, 0}, {0, 5, kPi / 2}, 1, shots);
+  connect(table, objective, {0, 0, 0}, {0, 5, kPi / 2}, 1, shots);
   CHECK(shots[0].cost == doctest::Approx(kPi / 2 + 5.0 + 3.0));
+}
+
+TEST_CASE("A slide turns, drives along and slips across, in either order") {
+  MotionTable table = rover_table();
+  Connection& how = table.connections[0];
+  how.family = Family::kSlide;
+  how.sideways_speed = 0.5;
+  how.left = 4;
+  how.right = 5;
+  std::vector<Shot> shots;
+  // 3 m along at 1 m/s, 2 m to the right at 0.5 m/s.
+  connect(table, Objective{}, {1, 1, 0}, {4, -1, 0}, 2, shots);
+  REQUIRE(shots.size() == 2);
+  for (const Shot& shot : shots) {
+    check_shot(shot, {1, 1, 0}, {4, -1, 0});
+    CHECK(shot.duration == 7000);
+  }
+  CHECK(shots[0].steps[0].mode != shots[1].steps[0].mode);
+  scenes::Dice dice(38);
+  for (int i = 0; i < 500; ++i) {
+    const Pose from = dice.pose(10.0), to = dice.pose(10.0);
+    connect(table, Objective{}, from, to, 2, shots);
+    for (const Shot& shot : shots) {
+      check_shot(shot, from, to);
+      for (const Step& step : shot.steps) {
+        if (step.twist.b != 0.0) CHECK(step.mode == (step.twist.b > 0.0 ? 4 : 5));
+        if (step.twist.a != 0.0) CHECK(step.mode == (step.twist.a > 0.0 ? kForward : kReverse));
+        if (step.twist.c != 0.0) CHECK(step.mode == (step.twist.c > 0.0 ? kLeft : kRight));
+      }
+    }
+  }
 }
 
 TEST_CASE("To where it is already a robot need not drive") {
@@ -227,7 +259,11 @@ TEST_CASE("To where it is already a robot need not drive") {
   }
 }
 
-TEST_CASE("The reach of a table is its longest primitive") {
+TEST_CASE("The reach of a table is its longest primitive, its step the shortest that travels") {
+  CHECK(rover_table().shortest_step() == doctest::Approx(0.5));
+  MotionTable mixed = rover_table();
+  mixed.primitives[kReverse].twist.a = -0.3;
+  CHECK(mixed.shortest_step() == doctest::Approx(0.3));
   CHECK(rover_table().reach() == doctest::Approx(0.5));
   CHECK(car_table().reach() == doctest::Approx(1.5 * kTau / 16));
 }

@@ -175,7 +175,7 @@ void PrioritisedPlanner::find_precedence(const std::vector<std::size_t>& order, 
   for (const std::size_t i : order) {
     const TourResult tour =
         search_(query(i, nullptr),
-                params_.hard_limit * static_cast<std::int64_t>(agents_[i].legs.size()), budget);
+                params_.search_limit * static_cast<std::int64_t>(agents_[i].legs.size()), budget);
     if (tour.outcome != TourResult::Outcome::kFound) continue;
     Traffic lone(models_[0].statics[0]->box(), largest_circumradius(models_), reach_of(models_),
                  largest_gap(models_, params_.margin));
@@ -226,10 +226,18 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
     const std::size_t i = queue.front();
     queue.pop_front();
     const auto legs = static_cast<std::int64_t>(agents_[i].legs.size());
+    const std::int64_t limit =
+        legs * std::max(params_.search_limit,
+                        params_.round_limit / static_cast<std::int64_t>(order.size()));
     release(i);
     TourQuery q = query(i, &traffic_);
     ++best_.searches;
-    TourResult tour = search_(q, params_.hard_limit * legs, budget);
+    TourResult tour = search_(q, limit, budget);
+    if (tour.outcome == TourResult::Outcome::kStopped && !budget.ended) {
+      q.greedy = true;
+      ++best_.searches;
+      tour = search_(q, 2 * limit, budget);
+    }
     if (tour.outcome != TourResult::Outcome::kFound) {
       if (budget.ended) return Attempt::kOver;
       if (!alone(i, budget)) {
@@ -239,7 +247,7 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
       q = query(i, &traffic_);
       q.penalty = &penalty_;
       ++best_.searches;
-      tour = search_(q, params_.soft_limit * legs, budget);
+      tour = search_(q, params_.search_limit * legs, budget);
       if (budget.ended) return Attempt::kOver;
       if (tour.outcome != TourResult::Outcome::kFound) {
         failed_ = i;

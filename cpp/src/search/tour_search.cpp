@@ -53,7 +53,9 @@ class TourRun {
         table_(query.fine ? query.model->fine : query.model->table),
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
-        weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
+        weight_(query.penalty  ? search.params_.soft_weight
+                : query.greedy ? search.params_.greedy_weight
+                               : search.params_.weight),
         cells_((query.fine ? 0.5 : 1.0) * search.params_.cell * table_.shortest_step(),
                (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)) {}
 
@@ -186,8 +188,11 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
 double TourRun::priority(const Node& node) {
   if (node.leg >= static_cast<int>(legs_.size())) return node.cost;
   const double here = estimate(node.leg, node.x, node.y, theta(node));
-  return node.cost + weight_ * here +
-         std::max(weight_, s_.params_.tail_weight) * tail_[static_cast<std::size_t>(node.leg)];
+  const double tail = tail_[static_cast<std::size_t>(node.leg)];
+  const double f = node.cost + weight_ * here + std::max(weight_, s_.params_.tail_weight) * tail;
+  if (!s_.objective_.time) return f;
+  // Before the final pose is free for good all ways are alike; the nearest goes first.
+  return std::max(f, static_cast<double>(earliest_rest_ - q_.ready)) + 1e-3 * (here + tail);
 }
 
 TourRun::Edge TourRun::edge_of(std::int32_t edge) const {
@@ -422,9 +427,9 @@ void TourRun::push(Node child, Ticks arrival, Ticks departure) {
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
   if (!last) return;
   if (best_ == kNone || child.cost < nodes_[static_cast<std::size_t>(best_)].cost) best_ = index;
-  // Nothing can come to rest earlier than this, so nothing better is left to find.
+  // Nothing can come to rest before the pose is free for good: good enough, no longer a search.
   if (s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
-      arrival <= earliest_rest_ + 1000) {
+      arrival - earliest_rest_ <= 1000 + (earliest_rest_ - q_.ready) / 10) {
     found_ = index;
   }
 }

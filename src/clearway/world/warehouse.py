@@ -170,12 +170,13 @@ def random_yard(robots: int, seed: int) -> Scenario:
 
 
 def tight_room() -> Scenario:
-    """Return four robots nose to tail in a dead end, whose innermost must come out first.
+    """Return four robots of which two must leave a dead end before the others may enter.
 
     The corridor is 24 m long and 3.2 m wide, closed at x = 0, with a side pocket of 4.5 m x
-    3.2 m; it opens into a hall of 12 m x 12 m. The innermost two have goals in the hall, the
-    outer two at the dead end. A way: r4 to (33.5, 6) and r3 to (33.5, -1.5) in the hall, r2 to
-    (30, -1.5), r1 to (30, 5.5), then r4 and r3 back in, each in turn, straight and sideways.
+    3.2 m; it opens into a hall of 12 m x 12 m. Two robots stand at the dead end, nose to tail,
+    and leave for the hall; two stand in the hall, in the way, and have their goals at the dead
+    end. A way: r2 to (33.8, -1.5), r1 to (33.8, 5.5), then r3 to the very end and r4 behind
+    it, each in turn, straight and sideways.
     """
     bounds: Polygon = (
         (0.0, 0.0),
@@ -191,19 +192,23 @@ def tight_room() -> Scenario:
         (14.0, 3.2),
         (0.0, 3.2),
     )
-    goals = (
+    starts = (
+        Pose(1.8, 1.6, 0.0),
+        Pose(5.4, 1.6, 0.0),
         Pose(30.0, 5.5, 0.0),
         Pose(30.0, -1.5, 0.0),
-        Pose(5.4, 1.6, 0.0),
+    )
+    goals = (
+        Pose(33.8, 5.5, 0.0),
+        Pose(33.8, -1.5, 0.0),
         Pose(1.8, 1.6, 0.0),
+        Pose(5.4, 1.6, 0.0),
     )
     return Scenario(
         name="tight-room",
         site=Site(bounds),
         robot_types={"carrier": four_wheel_carrier()},
-        robots=tuple(
-            Robot(f"r{i + 1}", "carrier", Pose(round(1.8 + 3.6 * i, 1), 1.6, 0.0)) for i in range(4)
-        ),
+        robots=tuple(Robot(f"r{i + 1}", "carrier", pose) for i, pose in enumerate(starts)),
         orders=tuple(_order(f"t{i + 1}", pose, 2.0, f"r{i + 1}") for i, pose in enumerate(goals)),
     )
 

@@ -30,9 +30,9 @@ struct TeamParams {
   double penalty_growth = 1.5;  // each time a robot is ripped up
   double first_hold = 5.0;      // see hold_ (s); doubled up to last_hold
   double last_hold = 80.0;
-  double jitter = 0.3;              // random share of the planning order after a restart
-  std::int64_t hard_limit = 15000;  // expansions per leg
-  std::int64_t soft_limit = 15000;
+  double jitter = 0.3;                // random share of the planning order after a restart
+  std::int64_t search_limit = 15000;  // expansions per leg before soft search is tried
+  std::int64_t round_limit = 400000;  // shared among the robots: small teams search longer
   std::int64_t alone_limit = 400000;  // for the proof that a robot is stuck alone
   int restarts = 1000;
 };
