@@ -11,6 +11,7 @@ from clearway.formats.scenario_models import (
     TaskTable,
     VisitTable,
 )
+from clearway.model import LOAD_CHANGE
 from clearway.model.robot import FOUR_WHEEL_MODES
 
 
@@ -112,7 +113,7 @@ def _able(
     names = [where if task.visits is None else f"{where}.visits[{j}]" for j in range(len(stops))]
     carried = peak = peak_at = 0
     for j, visit in enumerate(stops):
-        carried += {"pick": 1, "drop": -1, None: 0}[visit.load]
+        carried += LOAD_CHANGE[visit.load]
         if carried < 0:
             what = "drops a load that this task has not picked up"
             yield Problem(

@@ -7,7 +7,7 @@ from typing import Any
 
 from clearway.metrics import Metrics, VisitTime, activities, to_json, visit_times
 from clearway.metrics.motion import track_of
-from clearway.model import Footprint, PlanRecord, Robot, Site, Track, Visit
+from clearway.model import LOAD_CHANGE, Footprint, PlanRecord, Robot, Site, Track, Visit
 from clearway.plot.palette import robot_colour
 from clearway.plot.thin import thin
 
@@ -65,7 +65,7 @@ def carrying(tour: tuple[Visit, ...], made: tuple[VisitTime, ...]) -> list[list[
     for visit in made:
         load = tour[visit.visit].load
         before = loads
-        loads += {"pick": 1, "drop": -1, None: 0}[load]
+        loads += LOAD_CHANGE[load]
         loads = max(loads, 0)
         if loads and not before:
             spans.append([round(visit.leave * 1000)])

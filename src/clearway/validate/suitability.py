@@ -1,6 +1,6 @@
 """Which robots may do a task, and how they are loaded on the way."""
 
-from clearway.model import Robot, Scenario, Task
+from clearway.model import LOAD_CHANGE, Robot, Scenario, Task
 
 
 def load_states(task: Task) -> list[tuple[bool, bool]]:
@@ -8,7 +8,7 @@ def load_states(task: Task) -> list[tuple[bool, bool]]:
     carried, states = 0, []
     for visit in task.visits:
         before = carried
-        carried += {"pick": 1, "drop": -1, None: 0}[visit.load]
+        carried += LOAD_CHANGE[visit.load]
         states.append((before > 0, carried > 0))
     return states
 
@@ -18,7 +18,7 @@ def able_robots(scenario: Scenario, task: Task) -> tuple[Robot, ...]:
     needs = {visit.needs for visit in task.visits if visit.needs is not None}
     carried = peak = 0
     for visit in task.visits:
-        carried += {"pick": 1, "drop": -1, None: 0}[visit.load]
+        carried += LOAD_CHANGE[visit.load]
         peak = max(peak, carried)
     kinds = {
         name
