@@ -128,7 +128,6 @@ void bind_prioritised(nb::module_& m) {
       .def_rw("last_hold", &TeamParams::last_hold)
       .def_rw("jitter", &TeamParams::jitter)
       .def_rw("search_limit", &TeamParams::search_limit)
-      .def_rw("round_limit", &TeamParams::round_limit)
       .def_rw("alone_limit", &TeamParams::alone_limit)
       .def_rw("restarts", &TeamParams::restarts);
   nb::class_<TourStop>(m, "TourStop", "A visit made: its leg, ticks of arrival and leaving.")

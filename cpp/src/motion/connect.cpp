@@ -129,6 +129,8 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
   const Point local = start.to_local({to.x, to.y});
   const double turn = wrap(to.theta - from.theta);
   for (const Connection& how : table.connections) {
+    if (how.family != Family::kReedsShepp && how.yaw_rate <= 0.0) continue;
+    if (how.family == Family::kSlide && how.sideways_speed <= 0.0) continue;
     const double c = std::cos(how.direction), s = std::sin(how.direction);
     // Seen from a frame whose x axis is the direction of travel.
     const double x = c * local.x + s * local.y, y = -s * local.x + c * local.y;

@@ -74,7 +74,7 @@ void PrioritisedPlanner::require_gaps() {
       const auto b = static_cast<std::size_t>(leg.body);
       const double here = m.statics[b]->gap(m.bodies[b], Frame(from));
       const double there = m.statics[b]->gap(m.bodies[b], Frame(leg.goal));
-      leg.required = std::min({wanted[i], here, there});
+      leg.required = std::max(-kLegalOverlap, std::min({wanted[i], here, there}));
       from = leg.goal;
       rests[i].push_back({Frame(from), &m.bodies[b]});
     }
@@ -97,13 +97,21 @@ void PrioritisedPlanner::require_gaps() {
     }
   }
   for (auto& row : required_) {
-    row.resize(2 * n);
+    row.resize(3 * n);
     std::copy_n(row.begin(), n, row.begin() + static_cast<std::ptrdiff_t>(n));
+    std::copy_n(row.begin(), n, row.begin() + static_cast<std::ptrdiff_t>(2 * n));
   }
 }
 
-// Let an unplanned robot stand at its start for a while.
+// Let an unplanned robot do what it is committed to and wait until it is ready; and perhaps stand
+// at its start for a while.
 void PrioritisedPlanner::hold(std::size_t i) {
+  const Ticks ready = query(i, nullptr).ready;
+  if (ready > 0) {
+    traffic_.insert(static_cast<int>(2 * agents_.size() + i),
+                    std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
+                                                  agents_[i].committed, ready));
+  }
   if (hold_[i] <= 0.0) return;
   traffic_.insert(
       static_cast<int>(agents_.size() + i),
@@ -112,8 +120,9 @@ void PrioritisedPlanner::hold(std::size_t i) {
 }
 
 void PrioritisedPlanner::release(std::size_t i) {
-  const auto id = static_cast<int>(agents_.size() + i);
-  if (traffic_.has(id)) traffic_.remove(id);
+  for (const std::size_t id : {agents_.size() + i, 2 * agents_.size() + i}) {
+    if (traffic_.has(static_cast<int>(id))) traffic_.remove(static_cast<int>(id));
+  }
 }
 
 std::shared_ptr<const Track> PrioritisedPlanner::track(std::size_t i,
@@ -165,7 +174,10 @@ bool PrioritisedPlanner::alone(std::size_t i, Budget& budget) {
     fine_[i] = fine;
     const TourResult tour = search_(query(i, nullptr), params_.alone_limit, budget);
     if (tour.outcome == TourResult::Outcome::kFound) return can_alone_[i] = true;
-    if (tour.outcome == TourResult::Outcome::kStopped) return true;  // nothing is proven
+    if (tour.outcome == TourResult::Outcome::kStopped) {
+      can_alone_[i] = !budget.ended;  // nothing is proven, and nothing to ask again
+      return true;
+    }
   }
   return false;
 }
@@ -226,18 +238,11 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
     const std::size_t i = queue.front();
     queue.pop_front();
     const auto legs = static_cast<std::int64_t>(agents_[i].legs.size());
-    const std::int64_t limit =
-        legs * std::max(params_.search_limit,
-                        params_.round_limit / static_cast<std::int64_t>(order.size()));
+    const std::int64_t limit = params_.search_limit * legs;
     release(i);
     TourQuery q = query(i, &traffic_);
     ++best_.searches;
     TourResult tour = search_(q, limit, budget);
-    if (tour.outcome == TourResult::Outcome::kStopped && !budget.ended) {
-      q.greedy = true;
-      ++best_.searches;
-      tour = search_(q, 2 * limit, budget);
-    }
     if (tour.outcome != TourResult::Outcome::kFound) {
       if (budget.ended) return Attempt::kOver;
       if (!alone(i, budget)) {
@@ -247,7 +252,7 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
       q = query(i, &traffic_);
       q.penalty = &penalty_;
       ++best_.searches;
-      tour = search_(q, params_.search_limit * legs, budget);
+      tour = search_(q, limit, budget);
       if (budget.ended) return Attempt::kOver;
       if (tour.outcome != TourResult::Outcome::kFound) {
         failed_ = i;
@@ -369,7 +374,8 @@ TeamResult PrioritisedPlanner::operator()(std::uint32_t seed, Budget& budget) {
       hold(i);
     }
     times_hit_.assign(n, 0);
-    penalty_.assign(2 * n, params_.first_penalty * unit);
+    penalty_.assign(3 * n, params_.first_penalty * unit);
+    std::fill(penalty_.begin() + static_cast<std::ptrdiff_t>(2 * n), penalty_.end(), -1.0);
     for (std::size_t i = 0; i < n; ++i) {
       if (agents_[i].fixed || agents_[i].legs.empty()) penalty_[i] = -1.0;
     }

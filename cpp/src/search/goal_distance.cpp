@@ -15,7 +15,7 @@ GoalDistance::GoalDistance(const Statics& statics, double radius, double goal_x,
   const std::size_t num_cells = w * static_cast<std::size_t>(height_);
   distance_.assign(num_cells, kUnreachable);
   // The field is a lower bound; give back what it and the cell's extent may take away.
-  const double needed = std::max(0.0, radius - 0.75 * cell);
+  const double needed = std::max(0.0, radius - 0.5 * std::numbers::sqrt2 * cell - statics.loss());
   std::vector<std::uint8_t> open(num_cells);
   for (int iy = 0; iy < height_; ++iy) {
     for (int ix = 0; ix < width_; ++ix) {

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "clearway/search/cells.hpp"
+#include "clearway/search/encounters.hpp"
 
 namespace clearway {
 
@@ -21,14 +22,10 @@ struct Node {
   Ticks t, end;     // the safe interval is left at `end` (set when expanded)
   Ticks departure;  // from the parent
   std::int32_t parent;
-  std::int32_t hits;  // head of the list of tracks run into (soft search)
+  HitList hits;       // head of the list of tracks run into (soft search)
   std::int32_t edge;  // primitive, or num_primitives + shot
   std::int16_t leg, k, mode;
   bool arrives;  // the edge ended at the visit of leg - 1
-};
-
-struct Hit {
-  std::int32_t track, next;
 };
 
 struct Open {
@@ -53,21 +50,14 @@ class TourRun {
         table_(query.fine ? query.model->fine : query.model->table),
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
-        weight_(query.penalty  ? search.params_.soft_weight
-                : query.greedy ? search.params_.greedy_weight
-                               : search.params_.weight),
+        weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
         cells_((query.fine ? 0.5 : 1.0) * search.params_.cell * table_.shortest_step(),
-               (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)) {}
+               (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)),
+        meet_(query.traffic, query.required) {}
 
   TourResult run(std::int64_t limit, Budget& budget);
 
  private:
-  struct Edge {
-    const Step* steps;
-    std::size_t size;
-    Ticks duration;
-  };
-
   void prepare();
   double estimate(int leg, double x, double y, double theta);
   double priority(const Node& node);
@@ -76,11 +66,9 @@ class TourRun {
   void launch(std::int32_t parent, std::int32_t edge, const Node& target, Ticks from, bool soft);
   void relaunch(const Node& node, Ticks from);
   void push(Node child, Ticks arrival, Ticks departure);
-  Edge edge_of(std::int32_t edge) const;
-  bool is_hit(std::int32_t list, int track) const;
+  Drive edge_of(std::int32_t edge) const;
   double price(int track) const;
 
-  double required(int track) const { return (*q_.required)[static_cast<std::size_t>(track)]; }
   const Body& body(int leg) const {
     return q_.model->bodies[static_cast<std::size_t>(legs_[static_cast<std::size_t>(leg)].body)];
   }
@@ -96,17 +84,8 @@ class TourRun {
     return headings_[static_cast<std::size_t>(n.leg)]->frame(n.x, n.y, n.k);
   }
 
-  Ticks safe_until(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
-  Ticks next_free(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const;
-  bool conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
-                std::int32_t hits, int* track, Ticks last_departure = 0,
-                Ticks* free_departure = nullptr) const;
   bool may_stay(const Body& serving, const Frame& at, Ticks arrival, Ticks service, bool last,
-                std::int32_t hits, Ticks* better) const;
-  std::int32_t collect(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
-                       std::int32_t hits);
-  std::int32_t collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
-                                std::int32_t hits);
+                HitList hits, Ticks* better) const;
   TourResult extract(std::int32_t goal);
 
   TourSearch& s_;
@@ -116,6 +95,7 @@ class TourRun {
   ConnectTable& connect_table_;
   double weight_;
   Cells cells_;
+  Encounters meet_;
 
   std::vector<const HeadingTable*> headings_;  // per leg, and one more after the last
   std::vector<const GoalDistance*> distances_;
@@ -123,7 +103,6 @@ class TourRun {
   std::vector<double> tail_;  // estimate of all that follows a leg
   std::vector<std::vector<Step>> primitive_steps_;
   std::vector<Node> nodes_;
-  std::vector<Hit> hits_;
   std::vector<Open> open_;
   std::vector<Shot> shots_;
   std::vector<Shot> tried_;
@@ -159,9 +138,9 @@ void TourRun::prepare() {
   const Frame rest(last.goal);
   Ticks t = q_.ready;
   while (true) {
-    const Ticks end = safe_until(resting(), rest, t, kNone);
-    if (end >= kNever) break;
-    t = next_free(resting(), rest, end + 1, kNone);
+    Ticks met = t;
+    if (meet_.safe_until(resting(), rest, t, kNobody, &met) >= kNever) break;
+    t = meet_.next_free(resting(), rest, met, kNobody);
     if (t >= kNever) {
       hopeless_ = true;  // somebody rests there for ever
       return;
@@ -195,7 +174,7 @@ double TourRun::priority(const Node& node) {
   return std::max(f, static_cast<double>(earliest_rest_ - q_.ready)) + 1e-3 * (here + tail);
 }
 
-TourRun::Edge TourRun::edge_of(std::int32_t edge) const {
+Drive TourRun::edge_of(std::int32_t edge) const {
   const auto i = static_cast<std::size_t>(edge);
   if (i < primitive_steps_.size()) {
     return {primitive_steps_[i].data(), 1, primitive_steps_[i][0].duration};
@@ -204,127 +183,24 @@ TourRun::Edge TourRun::edge_of(std::int32_t edge) const {
   return {shot.steps.data(), shot.steps.size(), shot.duration};
 }
 
-bool TourRun::is_hit(std::int32_t list, int track) const {
-  for (; list != kNone; list = hits_[static_cast<std::size_t>(list)].next) {
-    if (hits_[static_cast<std::size_t>(list)].track == track) return true;
-  }
-  return false;
-}
-
 double TourRun::price(int track) const { return (*q_.penalty)[static_cast<std::size_t>(track)]; }
-
-Ticks TourRun::safe_until(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const {
-  if (!q_.traffic) return kNever;
-  double end = kNever;
-  for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
-    if (who.end < from || who.begin >= end || is_hit(hits, who.track)) continue;
-    const Mover mover{&body, at, {}, static_cast<double>(from), end - from};
-    double clear = from;
-    if (q_.traffic->first_conflict(who, mover, required(who.track), &clear) >= 0.0) {
-      end = std::min(end, clear);
-    }
-  }
-  return static_cast<Ticks>(end);
-}
-
-Ticks TourRun::next_free(const Body& body, const Frame& at, Ticks from, std::int32_t hits) const {
-  Ticks t = from;
-  for (bool again = true; again;) {
-    again = false;
-    for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
-      if (t < who.begin || t > who.end || is_hit(hits, who.track)) continue;
-      const Ticks clear = q_.traffic->clear_after(who.track, body, at, t, required(who.track));
-      if (clear >= kNever) return kNever;
-      if (clear > t) {
-        t = clear;
-        again = true;
-      }
-    }
-  }
-  return t;
-}
-
-// Whether driving the edge from `departure` on runs into anybody; if so, whom, and the first
-// departure (no later than just past `last_departure`) at which the place of that conflict is
-// free of him.
-bool TourRun::conflict(const Body& body, const Frame& from, const Edge& edge, Ticks departure,
-                       std::int32_t hits, int* track, Ticks last_departure,
-                       Ticks* free_departure) const {
-  if (!q_.traffic || q_.traffic->empty()) return false;
-  Frame at = from;
-  double t = departure;
-  const auto meets = [&](const Traffic::Presence& who, const Mover& mover) {
-    const double when = q_.traffic->first_conflict(who, mover, required(who.track));
-    if (when < 0.0) return false;
-    *track = who.track;
-    if (free_departure) {
-      const double progress = (when - mover.begin) / mover.duration;
-      const Frame place = moved(mover.start, mover.twist.part(progress));
-      const auto offset = static_cast<Ticks>(when - departure);
-      const Ticks limit = last_departure >= kNever ? kNever : last_departure + offset;
-      const Ticks clear = q_.traffic->clear_after(who.track, body, place, departure + offset,
-                                                  required(who.track), limit);
-      *free_departure = clear >= kNever ? kNever : clear - offset;
-    }
-    return true;
-  };
-  for (std::size_t i = 0; i < edge.size; ++i) {
-    const Step& step = edge.steps[i];
-    const int chunks =
-        std::max(1, static_cast<int>(std::ceil(step.twist.length() / q_.traffic->reach() - 1e-9)));
-    const Twist part = step.twist.part(1.0 / chunks);
-    const double duration = static_cast<double>(step.duration) / chunks;
-    for (int c = 0; c < chunks; ++c) {
-      const Mover mover{&body, at, part, t, duration};
-      const double end = t + duration;
-      for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
-        if (who.end < t || who.begin > end || is_hit(hits, who.track)) continue;
-        if (meets(who, mover)) return true;
-      }
-      at = moved(at, part);
-      t = end;
-    }
-  }
-  return false;
-}
-
-std::int32_t TourRun::collect(const Body& body, const Frame& from, const Edge& edge,
-                              Ticks departure, std::int32_t hits) {
-  int track = 0;
-  while (conflict(body, from, edge, departure, hits, &track)) {
-    hits_.push_back({track, hits});
-    hits = static_cast<std::int32_t>(hits_.size()) - 1;
-  }
-  return hits;
-}
-
-std::int32_t TourRun::collect_standing(const Body& body, const Frame& at, Ticks from, Ticks until,
-                                       std::int32_t hits) {
-  for (const Traffic::Presence& who : q_.traffic->near(at.x, at.y)) {
-    if (who.end < from || who.begin > until || is_hit(hits, who.track)) continue;
-    const Mover mover{&body, at, {}, static_cast<double>(from), static_cast<double>(until - from)};
-    if (q_.traffic->first_conflict(who, mover, required(who.track)) < 0.0) continue;
-    hits_.push_back({who.track, hits});
-    hits = static_cast<std::int32_t>(hits_.size()) - 1;
-  }
-  return hits;
-}
 
 // Whether a visit's pose can be held from `arrival` through the service, and for ever at the last
 // one, where the body may be another from then on; if not, the next arrival worth trying.
 bool TourRun::may_stay(const Body& serving, const Frame& at, Ticks arrival, Ticks service,
-                       bool last, std::int32_t hits, Ticks* better) const {
+                       bool last, HitList hits, Ticks* better) const {
   const Ticks leave = arrival + service;
   const bool same = !last || &resting() == &serving;
-  Ticks until = safe_until(serving, at, arrival, hits);
+  Ticks met = 0;
+  Ticks until = meet_.safe_until(serving, at, arrival, hits, &met);
   if (until < (last && same ? kNever : leave)) {
-    *better = next_free(serving, at, until + 1, hits);
+    *better = meet_.next_free(serving, at, met, hits);
     return false;
   }
   if (same) return true;
-  until = safe_until(resting(), at, leave, hits);
+  until = meet_.safe_until(resting(), at, leave, hits, &met);
   if (until >= kNever) return true;
-  const Ticks clear = next_free(resting(), at, until + 1, hits);
+  const Ticks clear = meet_.next_free(resting(), at, met, hits);
   *better = clear >= kNever ? kNever : clear - service;
   return false;
 }
@@ -335,7 +211,7 @@ bool TourRun::may_stay(const Body& serving, const Frame& at, Ticks arrival, Tick
 void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const Node& target,
                      Ticks from, bool soft) {
   const Node parent = nodes_[static_cast<std::size_t>(parent_index)];
-  const Edge edge = edge_of(edge_index);
+  const Drive edge = edge_of(edge_index);
   const Body& moving = body(parent.leg);
   const Frame start = frame(parent);
   const Frame end = frame(target);
@@ -350,27 +226,25 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
     Node child = target;
     child.hits = parent.hits;
     if (soft) {
-      child.hits = collect(moving, start, edge, departure, child.hits);
+      child.hits = meet_.collect(moving, start, edge, departure, child.hits);
       if (target.arrives && !last) {
-        child.hits = collect_standing(moving, end, arrival, arrival + service, child.hits);
+        child.hits = meet_.collect_standing(moving, end, arrival, arrival + service, child.hits);
       }
-      for (std::int32_t h = child.hits; h != parent.hits;
-           h = hits_[static_cast<std::size_t>(h)].next) {
-        const double penalty = price(hits_[static_cast<std::size_t>(h)].track);
+      for (std::int32_t h = child.hits; h != parent.hits; h = meet_.next(h)) {
+        const double penalty = price(meet_.track(h));
         if (penalty < 0.0) return;
         child.cost += penalty;
       }
       if (last) {
         // Who needs to pass a robot at its final rest can only pass before: that costs again.
-        std::int32_t met = collect_standing(moving, end, arrival, arrival + service, kNone);
-        met = collect_standing(resting(), end, arrival + service, kNever, met);
-        for (std::int32_t h = met; h != kNone; h = hits_[static_cast<std::size_t>(h)].next) {
-          const int track = hits_[static_cast<std::size_t>(h)].track;
+        std::int32_t met = meet_.collect_standing(moving, end, arrival, arrival + service, kNone);
+        met = meet_.collect_standing(resting(), end, arrival + service, kNever, met);
+        for (std::int32_t h = met; h != kNone; h = meet_.next(h)) {
+          const int track = meet_.track(h);
           if (price(track) < 0.0) return;
           child.cost += price(track);
-          if (is_hit(child.hits, track)) continue;
-          hits_.push_back({track, child.hits});
-          child.hits = static_cast<std::int32_t>(hits_.size()) - 1;
+          if (meet_.is_hit(child.hits, track)) continue;
+          child.hits = meet_.add(track, child.hits);
         }
       }
       push(child, arrival, departure);
@@ -382,14 +256,14 @@ void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const N
     if (const Interval* seen =
             cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t, cost, standing)) {
       if (seen->end >= kNever || !q_.traffic) return;
-      const Ticks clear = next_free(body(body_leg(target.leg)), end, seen->end + 1, parent.hits);
+      const Ticks clear = meet_.next_free(body(body_leg(target.leg)), end, seen->met, parent.hits);
       if (clear >= kNever) return;
       departure = std::max(departure + 1, clear - edge.duration - service);
       continue;
     }
     int track = 0;
     Ticks later = 0;
-    if (conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
+    if (meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
       if (later >= kNever) return;
       departure = std::max(departure + 1, later);
       continue;
@@ -439,7 +313,7 @@ void TourRun::relaunch(const Node& node, Ticks from) {
   if (node.parent == kNone) return;
   Node target = node;
   const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
-  const Edge edge = edge_of(node.edge);
+  const Drive edge = edge_of(node.edge);
   // Strip what push() added, so that the target carries the edge's own cost again.
   target.cost = s_.objective_.time
                     ? edge.duration
@@ -486,9 +360,9 @@ void TourRun::expand(std::int32_t index) {
       continue;
     }
     if (q_.penalty) {
-      const std::size_t before = hits_.size();
+      const std::size_t before = meet_.size();
       launch(index, target.edge, target, node.t + pause, true);
-      if (hits_.size() == before) continue;  // nobody in the way: waiting gains nothing
+      if (meet_.size() == before) continue;  // nobody in the way: waiting gains nothing
     }
     launch(index, target.edge, target, node.t + pause, false);
   }
@@ -574,7 +448,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     if (const Interval* seen =
             cells_.covering(node.x, node.y, node.k, node.leg, node.mode, node.t, node.cost, 0)) {
       if (seen->end < kNever && q_.traffic) {
-        const Ticks clear = next_free(standing, at, seen->end + 1, node.hits);
+        const Ticks clear = meet_.next_free(standing, at, seen->met, node.hits);
         if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
       }
       continue;
@@ -584,13 +458,14 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
       return best_ == kNone || !q_.penalty ? result : extract(best_);
     }
     const bool can_wait = node.mode < 0 || table_.rest[static_cast<std::size_t>(node.mode)];
-    const Ticks end = can_wait ? safe_until(standing, at, node.t, node.hits) : node.t;
+    Ticks met = node.t + 1;
+    const Ticks end = can_wait ? meet_.safe_until(standing, at, node.t, node.hits, &met) : node.t;
     nodes_[static_cast<std::size_t>(index)].end = end;
-    cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost});
+    cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost, met});
     shoot(index);
     expand(index);
     if (end < kNever && can_wait && q_.traffic && node.parent != kNone) {
-      const Ticks clear = next_free(standing, at, end + 1, node.hits);
+      const Ticks clear = meet_.next_free(standing, at, met, node.hits);
       if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
     }
   }
@@ -601,8 +476,8 @@ TourResult TourRun::extract(std::int32_t goal) {
   TourResult result;
   result.outcome = TourResult::Outcome::kFound;
   for (std::int32_t h = nodes_[static_cast<std::size_t>(goal)].hits; h != kNone;
-       h = hits_[static_cast<std::size_t>(h)].next) {
-    result.hits.push_back(hits_[static_cast<std::size_t>(h)].track);
+       h = meet_.next(h)) {
+    result.hits.push_back(meet_.track(h));
   }
   std::vector<std::int32_t> chain;
   for (std::int32_t i = goal; i != kNone; i = nodes_[static_cast<std::size_t>(i)].parent) {
@@ -610,7 +485,7 @@ TourResult TourRun::extract(std::int32_t goal) {
   }
   std::reverse(chain.begin(), chain.end());
   Pose at = q_.start;
-  Ticks t = 0;
+  Ticks t = q_.ready;
   int carried = legs_.front().body;
   const auto stand = [&](Ticks until) {
     if (until > t) result.pieces.push_back({t, until, at, {}, -1, carried});
@@ -618,7 +493,7 @@ TourResult TourRun::extract(std::int32_t goal) {
   };
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Node& node = nodes_[static_cast<std::size_t>(chain[i])];
-    const Edge edge = edge_of(node.edge);
+    const Drive edge = edge_of(node.edge);
     const int leg = node.arrives ? node.leg - 1 : node.leg;
     carried = legs_[static_cast<std::size_t>(leg)].body;
     stand(node.departure);

@@ -17,6 +17,10 @@ constexpr Ticks kMarch = 50;  // coarsest step when waiting for somebody to get 
 Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
              Ticks gone)
     : bodies_(bodies), pieces_(std::move(pieces)), gone_(gone) {
+  if (!pieces_.empty() && pieces_.front().begin > 0) {
+    const TimedPiece& first = pieces_.front();
+    pieces_.insert(pieces_.begin(), {0, first.begin, first.start, {}, -1, first.body});
+  }
   while (!pieces_.empty() && pieces_.back().mode < 0 && pieces_.size() > 1 &&
          pieces_.back().body == pieces_[pieces_.size() - 2].body) {
     pieces_.pop_back();  // standing at the end needs no piece
@@ -155,7 +159,7 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
     } else {
       room = gap(*mover.body, self, *other.body, other.frame, required + 0.5) - required;
       if (room < -1e-7) return t;
-      room += slack;
+      room = std::max(room, slack);  // so that a straight approach is told to its very end
     }
     if (last_clear) *last_clear = t;
     if (t >= finish) return -1.0;
@@ -176,7 +180,8 @@ Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from
     if (dx * dx + dy * dy >= apart * apart) return t;
     const double missing = required - gap(body, at, *other.body, other.frame, required);
     if (missing <= 0.0) return t;
-    const auto wait = static_cast<Ticks>(track.speed() > 0.0 ? missing / track.speed() : 0.0);
+    const auto wait =
+        static_cast<Ticks>(track.speed() > 0.0 ? std::min(missing / track.speed(), 1e6) : 0.0);
     t = std::max({t + kMarch, t + wait, other.still});
   }
   return t >= track.gone() ? track.gone() : t;

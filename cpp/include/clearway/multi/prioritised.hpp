@@ -31,8 +31,7 @@ struct TeamParams {
   double first_hold = 5.0;      // see hold_ (s); doubled up to last_hold
   double last_hold = 80.0;
   double jitter = 0.3;                // random share of the planning order after a restart
-  std::int64_t search_limit = 15000;  // expansions per leg before soft search is tried
-  std::int64_t round_limit = 400000;  // shared among the robots: small teams search longer
+  std::int64_t search_limit = 15000;  // expansions per leg of one search
   std::int64_t alone_limit = 400000;  // for the proof that a robot is stuck alone
   int restarts = 1000;
 };
@@ -87,7 +86,8 @@ class PrioritisedPlanner {
   std::vector<std::vector<double>> required_;  // of each agent to each track
   // Robots not planned yet are ignored, and so may be run over before they can leave. A robot to
   // whom that happened stands at its start for this long in the eyes of those planned before it,
-  // as a track of its own (number of agents + i).
+  // as a track of its own (number of agents + i). What it is committed to
+  // is a third (2 * number of agents + i).
   std::vector<double> hold_;
   std::vector<int> times_hit_;
   std::vector<double> penalty_;

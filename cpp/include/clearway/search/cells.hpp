@@ -13,6 +13,7 @@ namespace clearway {
 struct Interval {
   Ticks begin = 0, end = 0;
   double cost = 0.0;
+  Ticks met = 0;  // when somebody is in the way, just after `end`
 };
 
 // Open-addressed map from (cell, heading, leg, mode class) to intervals.

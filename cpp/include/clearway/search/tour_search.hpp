@@ -33,9 +33,8 @@ struct Leg {
 };
 
 struct SearchParams {
-  double weight = 1.3;       // on the heuristic: larger is greedier
-  double tail_weight = 2.0;  // on the legs after the current one: larger goes deeper first
-  double greedy_weight = 3.0;
+  double weight = 1.3;         // on the heuristic: larger is greedier
+  double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
   double cell = 0.85;          // poses in one cell compete; in shortest steps of the table
   std::size_t shot_words = 2;  // analytic connections tried at a time
@@ -47,7 +46,6 @@ struct TourQuery {
   Pose start;
   int mode = -1;
   Ticks ready = 0;
-  bool greedy = false;  // where the usual search found nothing in time
   const std::vector<Leg>* legs = nullptr;
   int rest_body = 0;                              // with which it stands after the last visit
   const Traffic* traffic = nullptr;               // null: alone on the site

@@ -38,6 +38,8 @@ class Statics {
            unit_;
   }
   double saturation() const { return saturation_; }
+  // How much less than the true distance clearance() may say.
+  double loss() const { return std::numbers::sqrt2 * cell_ + unit_; }
 
   // Lower bound of a placed body's gap, by its cover circles.
   double cover_gap(const Body& body, const Frame& f) const;

@@ -1,6 +1,7 @@
 // What moves: planned trajectories, found by tiles of space and time.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -105,6 +106,10 @@ class Traffic {
 };
 
 // How far a conservative step may overshoot: half of it can be lost of the required gap.
-inline double step_slack(double required) { return std::min(0.05, std::max(0.0008, required)); }
+// Below a gap of 0 (poses that legally overlap by up to 1 mm) next to nothing may be lost.
+inline double step_slack(double required) {
+  if (required < 0.0) return std::clamp(2.0 * (required + 0.001), 1e-5, 0.0008);
+  return std::clamp(required, 0.0008, 0.05);
+}
 
 }  // namespace clearway
