@@ -45,7 +45,7 @@ class HierarchicalSettings:
     turning: float = 1.0
     park: Literal["blocking", "always", "never"] = "blocking"
     objective: Literal["time", "paper"] = "time"
-    weight: float = 1.3
+    weight: float = 1.1
 
     def __post_init__(self) -> None:
         for name in ("max_distance", "total_distance", "turning"):

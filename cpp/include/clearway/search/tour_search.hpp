@@ -33,7 +33,7 @@ struct Leg {
 };
 
 struct SearchParams {
-  double weight = 1.3;         // on the heuristic: larger is greedier
+  double weight = 1.1;         // on the heuristic: larger is greedier
   double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
   double cell = 0.85;          // poses in one cell compete; in shortest steps of the table
