@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <stdexcept>
 
 #include "clearway/search/cells.hpp"
 #include "clearway/search/encounters.hpp"
@@ -432,6 +432,10 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
   bool by_mode = table_.switch_duration > 0 || !s_.objective_.time;
   for (const Primitive& p : table_.primitives) by_mode = by_mode || p.from != ~0ULL;
   cells_.distinguish_modes(by_mode);
+  if (legs_.size() >= Cells::kMostLegs || table_.headings > Cells::kMostHeadings ||
+      (by_mode && table_.rest.size() >= Cells::kMostModes)) {
+    throw std::invalid_argument("a search takes fewer than 16384 legs, 63 modes and 257 headings");
+  }
   const int num_legs = static_cast<int>(legs_.size());
   std::int64_t spent = 0;
   while (!open_.empty() && found_ == kNone) {

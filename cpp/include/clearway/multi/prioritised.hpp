@@ -54,6 +54,7 @@ class PrioritisedPlanner {
   PrioritisedPlanner(const std::vector<Model>& models, std::vector<Agent> agents,
                      const TeamParams& params, Progress progress);
 
+  // To be called once.
   TeamResult operator()(std::uint32_t seed, Budget& budget);
 
  private:

@@ -19,6 +19,9 @@ struct Interval {
 // Open-addressed map from (cell, heading, leg, mode class) to intervals.
 class Cells {
  public:
+  static constexpr std::size_t kMostLegs = 1 << 14, kMostModes = 63;
+  static constexpr int kMostHeadings = 256;
+
   // `cell` (m); `waiting`: cost of a tick of waiting.
   Cells(double cell, double waiting) : inverse_(1.0 / cell), waiting_(waiting) {
     slots_.assign(1U << 14, Slot{});
@@ -55,7 +58,7 @@ class Cells {
   }
 
  private:
-  static constexpr double kShift = 1 << 19;
+  static constexpr double kShift = 1 << 17;
 
   struct Slot {
     std::uint64_t key = 0;
@@ -68,11 +71,14 @@ class Cells {
 
   std::uint64_t key(double x, double y, int k, int leg, int mode) const {
     // Shifted to be positive, so that truncation rounds down.
-    const auto ix = static_cast<std::uint64_t>(x * inverse_ + kShift) & 0xFFFFF;
-    const auto iy = static_cast<std::uint64_t>(y * inverse_ + kShift) & 0xFFFFF;
+    const auto ix =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(x * inverse_ + kShift)) & 0x3FFFF;
+    const auto iy =
+        static_cast<std::uint64_t>(static_cast<std::int64_t>(y * inverse_ + kShift)) & 0x3FFFF;
     const auto m = static_cast<std::uint64_t>(by_mode_ ? mode + 1 : 0);
-    return ix | iy << 20 | static_cast<std::uint64_t>(k) << 40 |
-           static_cast<std::uint64_t>(leg) << 48 | m << 56;
+    // 18 bits each for x and y, 8 for the heading, 14 for the leg, 6 for the mode.
+    return ix | iy << 18 | static_cast<std::uint64_t>(k) << 36 |
+           static_cast<std::uint64_t>(leg) << 44 | m << 58;
   }
   std::size_t find(std::uint64_t wanted) const {
     std::uint64_t h = wanted * 0x9E3779B97F4A7C15ULL;
