@@ -35,14 +35,14 @@ void bind_motion(nb::module_& m) {
   nb::class_<Primitive>(m, "Primitive", "One short motion of a table.")
       .def(
           "__init__",
-          [](Primitive* self, int mode, const Twist& twist, int turn_steps, Ticks duration,
-             double cost) { new (self) Primitive{mode, twist, turn_steps, duration, cost, ~0ULL}; },
-          "mode"_a, "twist"_a, "turn_steps"_a, "duration"_a, "cost"_a)
+          [](Primitive* self, int mode, const Twist& twist, int turn_steps, Ticks duration) {
+            new (self) Primitive{mode, twist, turn_steps, duration, ~0ULL};
+          },
+          "mode"_a, "twist"_a, "turn_steps"_a, "duration"_a)
       .def_ro("mode", &Primitive::mode)
       .def_ro("twist", &Primitive::twist)
       .def_ro("turn_steps", &Primitive::turn_steps)
       .def_ro("duration", &Primitive::duration)
-      .def_ro("cost", &Primitive::cost)
       .def_rw("allowed_from", &Primitive::from, "Modes in which it may begin, as bits.");
   nb::class_<Connection>(m, "Connection", "How one family of analytic curves is driven.")
       .def(nb::init<>())
@@ -79,7 +79,6 @@ void bind_motion(nb::module_& m) {
       .def(nb::init<>())
       .def_rw("headings", &MotionTable::headings)
       .def_rw("top_speed", &MotionTable::top_speed)
-      .def_rw("yaw_rate", &MotionTable::yaw_rate)
       .def_rw("rest", &MotionTable::rest)
       .def_rw("primitives", &MotionTable::primitives)
       .def_rw("connections", &MotionTable::connections)

@@ -163,13 +163,12 @@ inline MotionTable rover_table(int headings = 16) {
   MotionTable t;
   t.headings = headings;
   t.top_speed = 1.0;
-  t.yaw_rate = 1.0;
   t.rest.assign(4, true);
   const double step = kTau / headings;
-  t.primitives.push_back({kForward, {0.5, 0.0, 0.0}, 0, 500, 0.5, ~0ULL});
-  t.primitives.push_back({kReverse, {-0.5, 0.0, 0.0}, 0, 500, 0.5, ~0ULL});
-  t.primitives.push_back({kLeft, {0.0, 0.0, step}, 1, to_ticks(step), step, ~0ULL});
-  t.primitives.push_back({kRight, {0.0, 0.0, -step}, -1, to_ticks(step), step, ~0ULL});
+  t.primitives.push_back({kForward, {0.5, 0.0, 0.0}, 0, 500, ~0ULL});
+  t.primitives.push_back({kReverse, {-0.5, 0.0, 0.0}, 0, 500, ~0ULL});
+  t.primitives.push_back({kLeft, {0.0, 0.0, step}, 1, to_ticks(step), ~0ULL});
+  t.primitives.push_back({kRight, {0.0, 0.0, -step}, -1, to_ticks(step), ~0ULL});
   Connection how;
   how.family = Family::kTurnDriveTurn;
   how.forward_speed = how.reverse_speed = 1.0;
@@ -189,7 +188,6 @@ inline MotionTable car_table(int headings = 16) {
   MotionTable t;
   t.headings = headings;
   t.top_speed = 1.0;
-  t.yaw_rate = 1.0 / 1.5;
   t.rest.assign(6, true);
   const double step = kTau / headings, length = 1.5 * step;
   for (const int way : {1, -1}) {
@@ -197,12 +195,8 @@ inline MotionTable car_table(int headings = 16) {
       // Backwards round a centre on the left the heading falls.
       const int steps = way * turn;
       const int mode = (way > 0 ? 0 : 3) + (turn == 0 ? 0 : turn > 0 ? 1 : 2);
-      t.primitives.push_back({mode,
-                              {way * length, 0.0, steps * step},
-                              steps,
-                              to_ticks(length),
-                              length * (turn ? 2.0 : 1.0),
-                              ~0ULL});
+      t.primitives.push_back(
+          {mode, {way * length, 0.0, steps * step}, steps, to_ticks(length), ~0ULL});
     }
   }
   Connection how;

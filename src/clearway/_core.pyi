@@ -102,7 +102,7 @@ class Family(enum.Enum):
 class Primitive:
     """One short motion of a table."""
 
-    def __init__(self, mode: int, twist: Twist, turn_steps: int, duration: int, cost: float) -> None: ...
+    def __init__(self, mode: int, twist: Twist, turn_steps: int, duration: int) -> None: ...
 
     @property
     def mode(self) -> int: ...
@@ -115,9 +115,6 @@ class Primitive:
 
     @property
     def duration(self) -> int: ...
-
-    @property
-    def cost(self) -> float: ...
 
     @property
     def allowed_from(self) -> int:
@@ -302,12 +299,6 @@ class MotionTable:
 
     @top_speed.setter
     def top_speed(self, arg: float, /) -> None: ...
-
-    @property
-    def yaw_rate(self) -> float: ...
-
-    @yaw_rate.setter
-    def yaw_rate(self, arg: float, /) -> None: ...
 
     @property
     def rest(self) -> list[bool]: ...

@@ -344,11 +344,8 @@ void TourRun::expand(std::int32_t index) {
     target.parent = index;
     target.edge = static_cast<std::int32_t>(i);
     const Ticks pause = switching ? table_.switch_duration : 0;
-    if (s_.objective_.time) {
-      target.cost = p.duration;
-    } else {
-      target.cost = p.cost + (switching ? s_.objective_.mode_switch : 0.0);
-    }
+    target.cost = objective_of(table_, s_.objective_, primitive_steps_[i][0]);
+    if (switching && !s_.objective_.time) target.cost += s_.objective_.mode_switch;
     const Ticks earliest = node.t + pause + p.duration;
     const Interval* seen = cells_.covering(target.x, target.y, target.k, target.leg, target.mode,
                                            earliest, node.cost + target.cost, pause);

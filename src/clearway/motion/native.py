@@ -17,26 +17,18 @@ def native_table(model: MotionModel) -> _core.MotionTable:
     table = _core.MotionTable()
     table.headings = model.headings
     table.top_speed = model.top_speed
-    table.yaw_rate = model.yaw_rate
     table.rest = [mode.rest for mode in model.modes]
     table.switch_duration = to_ticks(model.mode_switch)
     table.turn_arm = model.turn_arm
-    primitives = []
-    for motion in model.motions:
-        a, b, c = motion.twist
-        length = (a * a + b * b) ** 0.5
-        turning = 2.0 if c else 1.0
-        cost = turning * (length if length else abs(c) * model.turn_arm)
-        primitives.append(
-            _core.Primitive(
-                number[motion.mode],
-                _core.Twist(a, b, c),
-                motion.turn_steps,
-                to_ticks(motion.duration),
-                cost,
-            )
+    table.primitives = [
+        _core.Primitive(
+            number[motion.mode],
+            _core.Twist(*motion.twist),
+            motion.turn_steps,
+            to_ticks(motion.duration),
         )
-    table.primitives = primitives
+        for motion in model.motions
+    ]
     table.connections = [_connection(model, curve, number) for curve in model.curves]
     return table
 

@@ -23,7 +23,6 @@ struct Primitive {
   Twist twist;
   int turn_steps = 0;
   Ticks duration = 0;
-  double cost = 0.0;           // in the objective other than time
   std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits
 };
 
@@ -61,7 +60,6 @@ struct Step {
 struct MotionTable {
   int headings = 16;
   double top_speed = 0.0;  // m/s, for heuristics
-  double yaw_rate = 0.0;   // rad/s, for heuristics; 0: turns are free
   std::vector<bool> rest;  // per mode: may the robot wait in it?
   std::vector<Primitive> primitives;
   std::vector<Connection> connections;
