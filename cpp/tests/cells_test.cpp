@@ -7,7 +7,8 @@
 using namespace clearway;
 
 TEST_CASE("Who comes later to where one could have waited is covered, who comes earlier is not") {
-  Cells cells(1.0, 1.0);
+  Cells cells;
+  cells.reset(1.0, 1.0);
   cells.add(3.5, 4.5, 2, 0, 0, {1000, 5000, 1000.0});
   CHECK(cells.covering(3.9, 4.1, 2, 0, 0, 1000, 1000.0, 0));
   CHECK(cells.covering(3.9, 4.1, 2, 0, 0, 5000, 5000.0, 0));
@@ -17,7 +18,8 @@ TEST_CASE("Who comes later to where one could have waited is covered, who comes 
 
 TEST_CASE("Whoever comes more cheaply is not covered") {
   // A tick of waiting costs 0.01: waiting from 1000 to 3000 makes 5 into 25.
-  Cells cells(1.0, 0.01);
+  Cells cells;
+  cells.reset(1.0, 0.01);
   cells.add(0.5, 0.5, 0, 0, 0, {1000, 5000, 5.0});
   CHECK(!cells.covering(0.5, 0.5, 0, 0, 0, 3000, 24.9, 0));
   CHECK(cells.covering(0.5, 0.5, 0, 0, 0, 3000, 25.1, 0));
@@ -26,7 +28,8 @@ TEST_CASE("Whoever comes more cheaply is not covered") {
 }
 
 TEST_CASE("Another cell, heading, leg or mode is another place") {
-  Cells cells(1.0, 1.0);
+  Cells cells;
+  cells.reset(1.0, 1.0);
   cells.distinguish_modes(true);
   cells.add(3.5, -4.5, 2, 1, 3, {0, kNever, 0.0});
   CHECK(cells.covering(3.5, -4.5, 2, 1, 3, 10, 10.0, 0));
@@ -39,13 +42,15 @@ TEST_CASE("Another cell, heading, leg or mode is another place") {
 }
 
 TEST_CASE("Where switching costs nothing modes share a place") {
-  Cells cells(1.0, 1.0);
+  Cells cells;
+  cells.reset(1.0, 1.0);
   cells.add(0, 0, 0, 0, 3, {0, kNever, 0.0});
   CHECK(cells.covering(0, 0, 0, 0, 5, 10, 10.0, 0));
 }
 
 TEST_CASE("Nothing is lost or mixed up while the table grows past many thousand places") {
-  Cells cells(0.5, 1.0);
+  Cells cells;
+  cells.reset(0.5, 1.0);
   scenes::Dice dice(61);
   struct Entry {
     double x, y;
@@ -76,7 +81,8 @@ TEST_CASE("Nothing is lost or mixed up while the table grows past many thousand 
 }
 
 TEST_CASE("A place keeps all its intervals") {
-  Cells cells(1.0, 1.0);
+  Cells cells;
+  cells.reset(1.0, 1.0);
   for (Ticks t = 0; t < 10; ++t) cells.add(0, 0, 0, 0, 0, {t * 100, t * 100 + 50, t * 100.0});
   for (Ticks t = 0; t < 1000; ++t) {
     CHECK((cells.covering(0, 0, 0, 0, 0, t, t, 0) != nullptr) == (t % 100 <= 50));

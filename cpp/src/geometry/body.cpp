@@ -53,6 +53,16 @@ Convex::Convex(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
     normals_.push_back(normal);
     offsets_.push_back(dot(normal, a));
   }
+  if (n != 4 || normals_.size() != 4) return;
+  const Point u = vertices_[1] - vertices_[0], v = vertices_[2] - vertices_[1];
+  const Point w = vertices_[3] - vertices_[2];
+  const double scale = length(u) + length(v);
+  is_rectangle_ = std::abs(dot(u, v)) < 1e-12 * scale * scale && length(u + w) < 1e-12 * scale;
+  const Point middle{0.5 * (vertices_[0].x + vertices_[2].x),
+                     0.5 * (vertices_[0].y + vertices_[2].y)};
+  rectangle_ = {{middle.x, middle.y, u.x / length(u), u.y / length(u)},
+                0.5 * length(u),
+                0.5 * length(v)};
 }
 
 double Convex::gap(Point p) const {
@@ -100,26 +110,58 @@ double Convex::separation(const Point* points, std::size_t count, double enough)
 
 Body::Body(const std::vector<std::vector<Point>>& parts, double disc_radius) : disc_(disc_radius) {
   if (parts.empty()) {
-    circumradius_ = inradius_ = disc_;
+    circumradius_ = inradius_ = bound_.r = disc_;
     cover_.push_back({0.0, 0.0, disc_});
     return;
   }
+  Point lo{kInfinity, kInfinity}, hi{-kInfinity, -kInfinity};
   for (const auto& vertices : parts) {
     if (vertices.size() < 3 || vertices.size() > kMaxVertices) {
       throw std::invalid_argument("a convex part needs 3 to 64 points, got " +
                                   std::to_string(vertices.size()));
     }
     parts_.emplace_back(vertices);
-    for (const Point& v : vertices) circumradius_ = std::max(circumradius_, std::hypot(v.x, v.y));
+    for (const Point& v : vertices) {
+      circumradius_ = std::max(circumradius_, std::hypot(v.x, v.y));
+      lo = {std::min(lo.x, v.x), std::min(lo.y, v.y)};
+      hi = {std::max(hi.x, v.x), std::max(hi.y, v.y)};
+    }
     inradius_ = std::max(inradius_, -parts_.back().gap(Point{0.0, 0.0}));
     cover_part(parts_.back(), cover_);
+  }
+  const Point centre{0.5 * (lo.x + hi.x), 0.5 * (lo.y + hi.y)};
+  bound_ = {centre.x, centre.y, 0.0};
+  for (const auto& vertices : parts) {
+    for (const Point& v : vertices) bound_.r = std::max(bound_.r, length(v - centre));
   }
 }
 
 namespace {
 
+// Separating-axis gap of two rectangles, the second one's centre seen from the first one's.
+double gap(const Rectangle& a, const Rectangle& b, const Frame& seen) {
+  const double c = std::abs(seen.c), s = std::abs(seen.s);
+  const double x = std::abs(seen.x), y = std::abs(seen.y);
+  const double u = std::abs(seen.c * seen.x + seen.s * seen.y);
+  const double v = std::abs(seen.c * seen.y - seen.s * seen.x);
+  return std::max(std::max(x - a.along - c * b.along - s * b.across,
+                           y - a.across - s * b.along - c * b.across),
+                  std::max(u - b.along - c * a.along - s * a.across,
+                           v - b.across - s * a.along - c * a.across));
+}
+
+Frame composed(const Frame& a, const Frame& b) {
+  const Point p = a.to_world({b.x, b.y});
+  return {p.x, p.y, a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
+}
+
 // Separating-axis gap of two convex parts, `b` placed by `seen` in the frame of `a`.
 double gap(const Convex& a, const Convex& b, const Frame& seen, double enough) {
+  const Rectangle *first_box = a.rectangle(), *second_box = b.rectangle();
+  if (first_box && second_box) {
+    return gap(*first_box, *second_box,
+               relative(first_box->centre, composed(seen, second_box->centre)));
+  }
   Point buffer[kMaxVertices];
   const auto place = [&buffer](const std::vector<Point>& vertices, const Frame& f) {
     for (std::size_t i = 0; i < vertices.size(); ++i) buffer[i] = f.to_world(vertices[i]);

@@ -76,8 +76,13 @@ bool Encounters::conflict(const Body& body, const Frame& from, const Drive& edge
     for (int c = 0; c < chunks; ++c) {
       const Mover mover{&body, at, part, t, duration};
       const double end = t + duration;
+      const Circle around = mover.around();
       for (const Traffic::Presence& who : traffic_->near(at.x, at.y)) {
-        if (who.end < t || who.begin > end || is_hit(hits, who.track)) continue;
+        if (who.end < t || who.begin > end ||
+            traffic_->surely_clear(who.track, around, t, end, required(who.track)) ||
+            is_hit(hits, who.track)) {
+          continue;
+        }
         if (meets(who, mover)) return true;
       }
       at = moved(at, part);

@@ -19,6 +19,7 @@ constexpr std::int32_t kNone = -1;
 struct Node {
   double x, y;
   double cost;      // objective so far
+  double step;      // what the edge alone adds to it
   Ticks t, end;     // the safe interval is left at `end` (set when expanded)
   Ticks departure;  // from the parent
   std::int32_t parent;
@@ -26,6 +27,7 @@ struct Node {
   std::int32_t edge;  // primitive, or num_primitives + shot
   std::int16_t leg, k, mode;
   bool arrives;  // the edge ended at the visit of leg - 1
+  bool driven;   // the edge is known to be clear; until then its cost is a lower bound
 };
 
 struct Open {
@@ -39,7 +41,22 @@ double goal_cell(double inradius) {
   return std::clamp(0.5 * inradius, kFinestGoalCell, kCoarsestGoalCell);
 }
 
+// Expansions that cost as much as a goal distance.
+std::int64_t worth_a_distance(const Statics& statics, double inradius) {
+  const Box& box = statics.box();
+  const double cell = goal_cell(inradius);
+  return static_cast<std::int64_t>((box.x1 - box.x0) * (box.y1 - box.y0) / (cell * cell) / 32.0);
+}
+
 }  // namespace
+
+// What a search fills; kept so that the next one need not allocate.
+struct TourMemory {
+  Cells cells;
+  std::vector<Node> nodes;
+  std::vector<Open> open;
+  std::vector<Shot> shots, tried;
+};
 
 // One query's search.
 class TourRun {
@@ -51,21 +68,37 @@ class TourRun {
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
         weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
-        cells_((query.fine ? 0.5 : 1.0) * search.params_.cell * table_.shortest_step(),
-               (search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond)),
-        meet_(query.traffic, query.required) {}
+        meet_(query.traffic, query.required),
+        cells_(search.memory_->cells),
+        nodes_(search.memory_->nodes),
+        open_(search.memory_->open),
+        shots_(search.memory_->shots),
+        tried_(search.memory_->tried) {
+    cells_.reset((query.fine ? 0.5 : 1.0) * search.params_.cell * table_.shortest_step(),
+                 search.objective_.time ? 1.0 : search.objective_.waiting / kTicksPerSecond);
+    nodes_.clear();
+    open_.clear();
+    shots_.clear();
+  }
 
   TourResult run(std::int64_t limit, Budget& budget);
 
  private:
   void prepare();
+  void look_ahead();
+  void learn_distance(int leg);
   double estimate(int leg, double x, double y, double theta);
   double priority(const Node& node);
   void expand(std::int32_t index);
   void shoot(std::int32_t index);
-  void launch(std::int32_t parent, std::int32_t edge, const Node& target, Ticks from, bool soft);
+  bool drive(std::int32_t index);
+  bool passable(const Node& node) const;
+  bool launch(Node& child, Ticks from) const;
+  bool pay(Node& child);
   void relaunch(const Node& node, Ticks from);
-  void push(Node child, Ticks arrival, Ticks departure);
+  void depart(Node& child, Ticks departure) const;
+  void push(const Node& child);
+  void arrive(std::int32_t index);
   Drive edge_of(std::int32_t edge) const;
   double price(int track) const;
 
@@ -94,18 +127,19 @@ class TourRun {
   const std::vector<Leg>& legs_;
   ConnectTable& connect_table_;
   double weight_;
-  Cells cells_;
   Encounters meet_;
+  Cells& cells_;
+  std::vector<Node>& nodes_;
+  std::vector<Open>& open_;
+  std::vector<Shot>& shots_;
+  std::vector<Shot>& tried_;
 
   std::vector<const HeadingTable*> headings_;  // per leg, and one more after the last
-  std::vector<const GoalDistance*> distances_;
+  std::vector<const GoalDistance*> distances_;  // null until a leg proves to need it
+  std::vector<std::int64_t> spent_on_;          // expansions per leg
   std::vector<Frame> goal_frames_;
   std::vector<double> tail_;  // estimate of all that follows a leg
-  std::vector<std::vector<Step>> primitive_steps_;
-  std::vector<Node> nodes_;
-  std::vector<Open> open_;
-  std::vector<Shot> shots_;
-  std::vector<Shot> tried_;
+  std::vector<Step> primitive_steps_;
   std::int32_t found_ = kNone;
   std::int32_t best_ = kNone;  // cheapest complete way so far
   Ticks earliest_rest_ = 0;    // no final rest can begin before
@@ -121,17 +155,13 @@ void TourRun::prepare() {
     if (i == n) break;
     heading = legs_[i].goal.theta;
     const int l = static_cast<int>(i);
-    distances_.push_back(&s_.goal_distance(statics(l), body(l).inradius(), legs_[i].goal));
+    distances_.push_back(s_.goal_distance(statics(l), body(l).inradius(), legs_[i].goal, false));
     goal_frames_.emplace_back(legs_[i].goal);
   }
-  tail_.assign(n, 0.0);
-  for (std::size_t i = n - 1; i-- > 0;) {
-    const Pose& p = legs_[i].goal;
-    tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta) +
-               (s_.objective_.time ? legs_[i].service : 0);
-  }
+  spent_on_.assign(n, 0);
+  look_ahead();
   for (const Primitive& p : table_.primitives) {
-    primitive_steps_.push_back({{p.mode, p.twist, p.duration}});
+    primitive_steps_.push_back({p.mode, p.twist, p.duration});
   }
   if (!q_.traffic || q_.penalty) return;
   const Leg& last = legs_.back();
@@ -149,15 +179,37 @@ void TourRun::prepare() {
   earliest_rest_ = t;
 }
 
+void TourRun::look_ahead() {
+  tail_.assign(legs_.size(), 0.0);
+  for (std::size_t i = legs_.size() - 1; i-- > 0;) {
+    const Pose& p = legs_[i].goal;
+    tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta) +
+               (s_.objective_.time ? legs_[i].service : 0);
+  }
+}
+
+// The straight distance has led nowhere for as long as it takes to know the one round obstacles.
+void TourRun::learn_distance(int leg) {
+  const auto l = static_cast<std::size_t>(leg);
+  distances_[l] = s_.goal_distance(statics(leg), body(leg).inradius(), legs_[l].goal, true);
+  look_ahead();
+  for (Open& entry : open_) entry.f = priority(nodes_[static_cast<std::size_t>(entry.node)]);
+  std::erase_if(open_, [](const Open& entry) { return !std::isfinite(entry.f); });
+  std::make_heap(open_.begin(), open_.end());
+}
+
 double TourRun::estimate(int leg, double x, double y, double theta) {
   const auto l = static_cast<std::size_t>(leg);
-  const float distance = (*distances_[l])(x, y);
-  if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
-  const double metres =
-      std::max(0.0, static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
-  const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const Frame& goal = goal_frames_[l];
   const Point local = goal.to_local({x, y});
+  double metres = length(local);
+  if (distances_[l]) {
+    const float distance = (*distances_[l])(x, y);
+    if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
+    metres = std::max(metres,
+                      static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
+  }
+  const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
   return std::max(way, exact);
 }
@@ -177,7 +229,7 @@ double TourRun::priority(const Node& node) {
 Drive TourRun::edge_of(std::int32_t edge) const {
   const auto i = static_cast<std::size_t>(edge);
   if (i < primitive_steps_.size()) {
-    return {primitive_steps_[i].data(), 1, primitive_steps_[i][0].duration};
+    return {&primitive_steps_[i], 1, primitive_steps_[i].duration};
   }
   const Shot& shot = shots_[i - primitive_steps_.size()];
   return {shot.steps.data(), shot.steps.size(), shot.duration};
@@ -206,102 +258,118 @@ bool TourRun::may_stay(const Body& serving, const Frame& at, Ticks arrival, Tick
 }
 
 // Find the first departure at or after `from`, within the parent's safe interval, at which the
-// edge can be driven and its end be occupied as long as needed; push what it leads to. In soft
-// search with `soft`, depart at `from` and pay for whoever is in the way.
-void TourRun::launch(std::int32_t parent_index, std::int32_t edge_index, const Node& target,
-                     Ticks from, bool soft) {
-  const Node parent = nodes_[static_cast<std::size_t>(parent_index)];
-  const Drive edge = edge_of(edge_index);
+// child's edge can be driven and its end be occupied as long as needed.
+bool TourRun::launch(Node& child, Ticks from) const {
+  const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
+  const Drive edge = edge_of(child.edge);
   const Body& moving = body(parent.leg);
   const Frame start = frame(parent);
-  const Frame end = frame(target);
-  const std::size_t num_legs = legs_.size();
-  const bool last = target.arrives && target.leg == static_cast<int>(num_legs);
-  const Ticks service = target.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Frame end = frame(child);
+  const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
+  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
+  const Ticks earliest = child.departure;
+  child.hits = parent.hits;
   Ticks departure = from;
   for (int delay = 0; delay < kMostDelays; ++delay) {
-    if (departure > parent.end || (departure > parent.t && !can_wait)) return;
+    if (departure > parent.end || (departure > earliest && !can_wait)) return false;
     const Ticks arrival = departure + edge.duration;
-    Node child = target;
-    child.hits = parent.hits;
-    if (soft) {
-      child.hits = meet_.collect(moving, start, edge, departure, child.hits);
-      if (target.arrives && !last) {
-        child.hits = meet_.collect_standing(moving, end, arrival, arrival + service, child.hits);
-      }
-      for (std::int32_t h = child.hits; h != parent.hits; h = meet_.next(h)) {
-        const double penalty = price(meet_.track(h));
-        if (penalty < 0.0) return;
-        child.cost += penalty;
-      }
-      if (last) {
-        // Who needs to pass a robot at its final rest can only pass before: that costs again.
-        std::int32_t met = meet_.collect_standing(moving, end, arrival, arrival + service, kNone);
-        met = meet_.collect_standing(resting(), end, arrival + service, kNever, met);
-        for (std::int32_t h = met; h != kNone; h = meet_.next(h)) {
-          const int track = meet_.track(h);
-          if (price(track) < 0.0) return;
-          child.cost += price(track);
-          if (meet_.is_hit(child.hits, track)) continue;
-          child.hits = meet_.add(track, child.hits);
-        }
-      }
-      push(child, arrival, departure);
-      return;
-    }
-    const Ticks t = arrival + service;
-    const double cost = parent.cost + target.cost;
     const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
     if (const Interval* seen =
-            cells_.covering(child.x, child.y, child.k, child.leg, child.mode, t, cost, standing)) {
-      if (seen->end >= kNever || !q_.traffic) return;
-      const Ticks clear = meet_.next_free(body(body_leg(target.leg)), end, seen->met, parent.hits);
-      if (clear >= kNever) return;
+            cells_.covering(child.x, child.y, child.k, child.leg, child.mode, arrival + service,
+                            parent.cost + child.step, standing)) {
+      if (seen->end >= kNever || !q_.traffic) return false;
+      const Ticks clear = meet_.next_free(body(body_leg(child.leg)), end, seen->met, parent.hits);
+      if (clear >= kNever) return false;
       departure = std::max(departure + 1, clear - edge.duration - service);
       continue;
     }
     int track = 0;
     Ticks later = 0;
     if (meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
-      if (later >= kNever) return;
+      if (later >= kNever) return false;
       departure = std::max(departure + 1, later);
       continue;
     }
-    if (target.arrives) {
+    if (child.arrives) {
       Ticks better = arrival;
       if (!may_stay(moving, end, arrival, service, last, last ? kNone : parent.hits, &better)) {
-        if (better >= kNever) return;
+        if (better >= kNever) return false;
         departure = std::max(departure + 1, better - edge.duration);
         continue;
       }
     }
-    push(child, arrival, departure);
-    return;
+    depart(child, departure);
+    return true;
   }
+  return false;
 }
 
-// `child.cost` holds what the edge adds; waiting and service are added here.
-void TourRun::push(Node child, Ticks arrival, Ticks departure) {
+// Soft search: depart as planned and pay for whoever is in the way; false where somebody does
+// not move away.
+bool TourRun::pay(Node& child) {
+  const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
+  const Drive edge = edge_of(child.edge);
+  const Body& moving = body(parent.leg);
+  const Frame start = frame(parent), end = frame(child);
+  const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
+  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Ticks arrival = child.departure + edge.duration;
+  double penalties = 0.0;
+  child.hits = meet_.collect(moving, start, edge, child.departure, parent.hits);
+  if (child.arrives && !last) {
+    child.hits = meet_.collect_standing(moving, end, arrival, arrival + service, child.hits);
+  }
+  for (HitList h = child.hits; h != parent.hits; h = meet_.next(h)) {
+    if (price(meet_.track(h)) < 0.0) return false;
+    penalties += price(meet_.track(h));
+  }
+  if (last) {
+    // Who needs to pass a robot at its final rest can only pass before: that costs again.
+    HitList met = meet_.collect_standing(moving, end, arrival, arrival + service, kNobody);
+    met = meet_.collect_standing(resting(), end, arrival + service, kNever, met);
+    for (HitList h = met; h != kNobody; h = meet_.next(h)) {
+      const int track = meet_.track(h);
+      if (price(track) < 0.0) return false;
+      penalties += price(track);
+      if (!meet_.is_hit(child.hits, track)) child.hits = meet_.add(track, child.hits);
+    }
+  }
+  depart(child, child.departure);
+  child.cost += penalties;
+  return true;
+}
+
+// Times and cost of a child that departs then.
+void TourRun::depart(Node& child, Ticks departure) const {
   const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
   const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   child.departure = departure;
-  child.t = arrival + service;
+  child.t = departure + edge_of(child.edge).duration + service;
   child.end = -1;
-  child.cost += parent.cost;
-  child.cost += s_.objective_.time
-                    ? departure - parent.t + service
-                    : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond;
+  child.cost = parent.cost + child.step +
+               (s_.objective_.time ? departure - parent.t + service
+                                   : s_.objective_.waiting * (departure - parent.t) /
+                                         kTicksPerSecond);
+}
+
+void TourRun::push(const Node& child) {
   const double f = priority(child);
   if (!std::isfinite(f)) return;
   const auto index = static_cast<std::int32_t>(nodes_.size());
   nodes_.push_back(child);
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end());
-  const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
-  if (!last) return;
-  if (best_ == kNone || child.cost < nodes_[static_cast<std::size_t>(best_)].cost) best_ = index;
+  if (child.driven) arrive(index);
+}
+
+// Remember the best complete way.
+void TourRun::arrive(std::int32_t index) {
+  const Node& node = nodes_[static_cast<std::size_t>(index)];
+  if (!node.arrives || node.leg < static_cast<int>(legs_.size())) return;
+  if (best_ == kNone || node.cost < nodes_[static_cast<std::size_t>(best_)].cost) best_ = index;
   // Nothing can come to rest before the pose is free for good: good enough, no longer a search.
+  const Ticks arrival = node.t - legs_.back().service;
   if (s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
       arrival - earliest_rest_ <= 1000 + (earliest_rest_ - q_.ready) / 10) {
     found_ = index;
@@ -311,103 +379,134 @@ void TourRun::push(Node child, Ticks arrival, Ticks departure) {
 // Drive a node's own edge again, later.
 void TourRun::relaunch(const Node& node, Ticks from) {
   if (node.parent == kNone) return;
-  Node target = node;
   const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
-  const Drive edge = edge_of(node.edge);
-  // Strip what push() added, so that the target carries the edge's own cost again.
-  target.cost = s_.objective_.time
-                    ? edge.duration
-                    : node.cost - parent.cost -
-                          s_.objective_.waiting * (node.departure - parent.t) / kTicksPerSecond;
   if (!s_.objective_.time && q_.penalty && node.hits != parent.hits) return;
-  launch(node.parent, node.edge, target, std::max(from, node.departure + 1), false);
+  Node child = node;
+  if (launch(child, std::max(from, node.departure + 1))) push(child);
+}
+
+// Whether nothing that stands is in the way of a node's edge.
+bool TourRun::passable(const Node& node) const {
+  const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
+  const Leg& leg = legs_[static_cast<std::size_t>(parent.leg)];
+  const Statics& around = statics(parent.leg);
+  const HeadingTable& headings = *headings_[static_cast<std::size_t>(parent.leg)];
+  if (static_cast<std::size_t>(node.edge) < primitive_steps_.size() &&
+      headings.surely_clear(around, leg.body, parent.x, parent.y, parent.k,
+                            static_cast<std::size_t>(node.edge), leg.required)) {
+    return true;
+  }
+  const Drive edge = edge_of(node.edge);
+  Frame at = frame(parent);
+  for (std::size_t i = 0; i < edge.size; ++i) {
+    const Step& step = edge.steps[i];
+    if (step.mode < 0) continue;
+    if (!around.clear(body(parent.leg), at, step.twist, leg.required, step_slack(leg.required))) {
+      return false;
+    }
+    if (i + 1 < edge.size) at = moved(at, step.twist);
+  }
+  return true;
+}
+
+// Check a node's edge, now that it is the best there is. True: the node stands as it was pushed;
+// false: it is gone, or pushed again for what it really costs.
+bool TourRun::drive(std::int32_t index) {
+  Node child = nodes_[static_cast<std::size_t>(index)];
+  const Ticks planned = child.departure;
+  const Interval* seen =
+      cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
+  if (seen && seen->end >= kNever) return false;
+  if (!passable(child)) return false;
+  child.driven = true;
+  bool as_pushed;
+  if (q_.penalty) {
+    const std::size_t before = meet_.size();
+    Node paying = child;
+    const bool can_pay = pay(paying);
+    as_pushed = can_pay && meet_.size() == before;
+    if (as_pushed) {
+      child = paying;
+    } else {
+      if (can_pay) push(paying);
+      if (launch(child, planned)) push(child);
+      return false;
+    }
+  } else {
+    if (!launch(child, planned)) return false;
+    as_pushed = child.departure == planned;
+    if (!as_pushed) {
+      push(child);
+      return false;
+    }
+  }
+  nodes_[static_cast<std::size_t>(index)] = child;
+  arrive(index);
+  return true;
 }
 
 void TourRun::expand(std::int32_t index) {
   const Node node = nodes_[static_cast<std::size_t>(index)];
   const HeadingTable& headings = *headings_[static_cast<std::size_t>(node.leg)];
-  const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
-  const Statics& around = statics(node.leg);
-  const Body& moving = body(node.leg);
-  const double slack = step_slack(leg.required);
   for (std::size_t i = 0; i < table_.primitives.size(); ++i) {
     const Primitive& p = table_.primitives[i];
     const bool switching = node.mode >= 0 && p.mode != node.mode;
     if (node.mode >= 0 && !(p.from >> node.mode & 1U)) continue;
     const HeadingTable::Landing& landing = headings.landing(node.k, i);
-    Node target{};
-    target.x = node.x + landing.dx;
-    target.y = node.y + landing.dy;
-    target.k = static_cast<std::int16_t>(landing.k);
-    target.leg = node.leg;
-    target.mode = static_cast<std::int16_t>(p.mode);
-    target.parent = index;
-    target.edge = static_cast<std::int32_t>(i);
-    const Ticks pause = switching ? table_.switch_duration : 0;
-    target.cost = objective_of(table_, s_.objective_, primitive_steps_[i][0]);
-    if (switching && !s_.objective_.time) target.cost += s_.objective_.mode_switch;
-    const Ticks earliest = node.t + pause + p.duration;
-    const Interval* seen = cells_.covering(target.x, target.y, target.k, target.leg, target.mode,
-                                           earliest, node.cost + target.cost, pause);
+    Node child{};
+    child.x = node.x + landing.dx;
+    child.y = node.y + landing.dy;
+    child.k = static_cast<std::int16_t>(landing.k);
+    child.leg = node.leg;
+    child.mode = static_cast<std::int16_t>(p.mode);
+    child.parent = index;
+    child.hits = node.hits;
+    child.edge = static_cast<std::int32_t>(i);
+    child.step = objective_of(table_, s_.objective_, primitive_steps_[i]);
+    if (switching && !s_.objective_.time) child.step += s_.objective_.mode_switch;
+    depart(child, node.t + (switching ? table_.switch_duration : 0));
+    const Interval* seen =
+        cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
     if (seen && seen->end >= kNever) continue;
-    if (!headings.surely_clear(around, leg.body, target.x - landing.dx, target.y - landing.dy,
-                               node.k, i, leg.required) &&
-        !around.clear(moving, headings.frame(node.x, node.y, node.k), p.twist, leg.required,
-                      slack)) {
-      continue;
-    }
-    if (q_.penalty) {
-      const std::size_t before = meet_.size();
-      launch(index, target.edge, target, node.t + pause, true);
-      if (meet_.size() == before) continue;  // nobody in the way: waiting gains nothing
-    }
-    launch(index, target.edge, target, node.t + pause, false);
+    push(child);
   }
 }
 
 void TourRun::shoot(std::int32_t index) {
   const Node node = nodes_[static_cast<std::size_t>(index)];
   const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
-  const double distance = (*distances_[static_cast<std::size_t>(node.leg)])(node.x, node.y);
+  double distance = length(Point{node.x, node.y} - Point{leg.goal.x, leg.goal.y});
+  if (const GoalDistance* known = distances_[static_cast<std::size_t>(node.leg)]) {
+    distance = std::max(distance, static_cast<double>((*known)(node.x, node.y)));
+  }
   since_shot_ += 1.0;
   if (since_shot_ < 1.0 + distance && !node.arrives) return;  // a new leg tries at once
   since_shot_ = 0.0;
   const Pose from{node.x, node.y, theta(node)};
   connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_);
-  const double slack = step_slack(leg.required);
   for (Shot& shot : tried_) {
-    Frame at = frame(node);
-    bool clear = true;
-    for (const Step& step : shot.steps) {
-      if (step.mode >= 0 &&
-          !statics(node.leg).clear(body(node.leg), at, step.twist, leg.required, slack)) {
-        clear = false;
-        break;
-      }
-      at = moved(at, step.twist);
-    }
-    if (!clear) continue;
-    Node target{};
-    target.x = leg.goal.x;
-    target.y = leg.goal.y;
-    target.leg = static_cast<std::int16_t>(node.leg + 1);
-    target.k = static_cast<std::int16_t>(
-        headings_[static_cast<std::size_t>(target.leg)]->index(leg.goal.theta));
-    target.parent = index;
-    target.arrives = true;
-    target.mode =
-        static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
+    Node child{};
+    child.x = leg.goal.x;
+    child.y = leg.goal.y;
+    child.leg = static_cast<std::int16_t>(node.leg + 1);
+    child.k = static_cast<std::int16_t>(
+        headings_[static_cast<std::size_t>(child.leg)]->index(leg.goal.theta));
+    child.parent = index;
+    child.hits = node.hits;
+    child.arrives = true;
+    child.mode = static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
     Ticks pause = 0;
-    target.cost = shot.cost;
+    child.step = shot.cost;
     if (!shot.steps.empty() && node.mode >= 0 && shot.steps.front().mode != node.mode) {
       pause = table_.switch_duration;
-      if (!s_.objective_.time) target.cost += s_.objective_.mode_switch;
+      if (!s_.objective_.time) child.step += s_.objective_.mode_switch;
     }
-    target.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
+    child.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
     shots_.push_back(std::move(shot));
-    if (q_.penalty) launch(index, target.edge, target, node.t + pause, true);
-    launch(index, target.edge, target, node.t + pause, false);
-    return;
+    depart(child, node.t + pause);
+    push(child);
+    // What soft search has in hand when its effort ends counts.
+    if (q_.penalty) drive(static_cast<std::int32_t>(nodes_.size()) - 1);
   }
 }
 
@@ -422,6 +521,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
   start.parent = kNone;
   start.hits = kNone;
   start.edge = kNone;
+  start.driven = true;
   start.mode = static_cast<std::int16_t>(q_.mode);
   start.k = static_cast<std::int16_t>(headings_[0]->index(q_.start.theta));
   nodes_.push_back(start);
@@ -439,6 +539,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     std::pop_heap(open_.begin(), open_.end());
     const std::int32_t index = open_.back().node;
     open_.pop_back();
+    if (!nodes_[static_cast<std::size_t>(index)].driven && !drive(index)) continue;
     const Node node = nodes_[static_cast<std::size_t>(index)];
     if (node.leg == num_legs) {
       found_ = index;
@@ -465,6 +566,11 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost, met});
     shoot(index);
     expand(index);
+    const auto leg = static_cast<std::size_t>(node.leg);
+    if (!distances_[leg] &&
+        ++spent_on_[leg] > worth_a_distance(statics(node.leg), standing.inradius())) {
+      learn_distance(node.leg);
+    }
     if (end < kNever && can_wait && q_.traffic && node.parent != kNone) {
       const Ticks clear = meet_.next_free(standing, at, met, node.hits);
       if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
@@ -522,14 +628,20 @@ TourResult TourSearch::operator()(const TourQuery& query, std::int64_t limit, Bu
   return run.run(limit, budget);
 }
 
-const GoalDistance& TourSearch::goal_distance(const Statics& statics, double radius,
-                                              const Pose& goal) {
+TourSearch::TourSearch(const SearchParams& params, const Objective& objective)
+    : params_(params), objective_(objective), memory_(std::make_unique<TourMemory>()) {}
+
+TourSearch::~TourSearch() = default;
+
+const GoalDistance* TourSearch::goal_distance(const Statics& statics, double radius,
+                                              const Pose& goal, bool make) {
   const auto key = std::make_tuple(&statics, radius, goal.x, goal.y);
   const auto found = goal_distances_.find(key);
-  if (found != goal_distances_.end()) return found->second;
-  return goal_distances_
-      .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, goal_cell(radius)))
-      .first->second;
+  if (found != goal_distances_.end()) return &found->second;
+  if (!make) return nullptr;
+  return &goal_distances_
+              .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, goal_cell(radius)))
+              .first->second;
 }
 
 const HeadingTable& TourSearch::heading_table(const Model& model, bool fine, double theta) {

@@ -7,10 +7,19 @@ namespace clearway {
 
 namespace {
 
+// Speed of a body-frame point under a twist of this duration (m per tick).
+double speed_of(const Twist& t, double x, double y, double duration) {
+  return std::hypot(t.a - t.c * y, t.b + t.c * x) / duration;
+}
+
+Circle placed(const Circle& c, const Frame& f) {
+  const Point p = f.to_world({c.x, c.y});
+  return {p.x, p.y, c.r};
+}
+
 constexpr double kTile = 2.5;
 constexpr double kChunk = 1.0;  // longest stretch of path marked at once (m)
-constexpr Ticks kSlot = 512;
-constexpr Ticks kMarch = 50;  // coarsest step when waiting for somebody to get clear
+constexpr Ticks kMarch = 100;  // coarsest step when waiting for somebody to get clear
 
 }  // namespace
 
@@ -34,6 +43,8 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
     if (p.end > p.begin) {
       const double travel = p.twist.length() + std::abs(p.twist.c) * body.circumradius();
       speed_ = std::max(speed_, travel / (p.end - p.begin));
+      const Circle& bound = body.bound();
+      centre_speed_ = std::max(centre_speed_, speed_of(p.twist, bound.x, bound.y, p.end - p.begin));
     }
     changes_shape_ = changes_shape_ || p.body != pieces_.front().body;
     while (static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
@@ -42,6 +53,16 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
   }
   frames_.push_back(pieces_.empty() ? Frame(start)
                                     : Frame(moved(pieces_.back().start, pieces_.back().twist)));
+  // A body that changes its shape is held by a circle about the reference point at all times.
+  const auto bound = [&](const Sight& sight) {
+    if (!changes_shape_) return placed(sight.body->bound(), sight.frame);
+    return Circle{sight.frame.x, sight.frame.y, circumradius_};
+  };
+  if (changes_shape_) centre_speed_ = speed_;
+  for (std::size_t i = 0; i < slot_.size(); ++i) {
+    centres_.push_back(bound(at(static_cast<double>(i) * kSlot)));
+  }
+  rest_ = bound(at(kNever));
 }
 
 Track::Sight Track::at(double tick) const {
@@ -134,6 +155,13 @@ void Traffic::remove(int id) {
   --count_;
 }
 
+Circle Mover::around() const {
+  const Circle& bound = body->bound();
+  Circle c = placed(bound, moved(start, twist.part(0.5)));
+  c.r += 0.5 * speed_of(twist, bound.x, bound.y, 1.0);
+  return c;
+}
+
 double Traffic::first_conflict(const Presence& who, const Mover& mover, double required,
                                double* last_clear) const {
   const Track& track = *tracks_[static_cast<std::size_t>(who.track)];
@@ -143,6 +171,9 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
   const double radius = mover.body->circumradius();
   const double travel = mover.twist.length() + std::abs(mover.twist.c) * radius;
   const double own_speed = travel > 0.0 ? travel / mover.duration : 0.0;
+  const Circle& bound = mover.body->bound();
+  const double centre_speed =
+      travel > 0.0 ? speed_of(mover.twist, bound.x, bound.y, mover.duration) : 0.0;
   const double slack = step_slack(required);
   if (last_clear) *last_clear = t;
   while (true) {
@@ -150,21 +181,30 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
     const Frame self =
         travel > 0.0 ? moved(mover.start, mover.twist.part((t - mover.begin) / mover.duration))
                      : mover.start;
-    const double dx = self.x - other.frame.x, dy = self.y - other.frame.y;
-    const double apart = radius + other.body->circumradius() + required;
+    const Circle mine = placed(bound, self), its = placed(other.body->bound(), other.frame);
+    const double dx = mine.x - its.x, dy = mine.y - its.y;
+    const double apart = mine.r + its.r + required;
     const double square = dx * dx + dy * dy;
-    double room;
+    const bool settled = t >= track.settled();
+    double room, speed;
+    bool sure = true;  // that nothing happens before the room is used up
     if (square > (apart + slack) * (apart + slack)) {
       room = std::sqrt(square) - apart;
+      speed = centre_speed + (settled ? 0.0 : track.centre_speed());
     } else {
       room = gap(*mover.body, self, *other.body, other.frame, required + 0.5) - required;
       if (room < -1e-7) return t;
+      sure = room >= slack;
       room = std::max(room, slack);  // so that a straight approach is told to its very end
+      speed = own_speed + (settled ? 0.0 : track.speed());
     }
     if (last_clear) *last_clear = t;
     if (t >= finish) return -1.0;
-    const double speed = own_speed + (t >= track.settled() ? 0.0 : track.speed());
     const double next = speed > 0.0 ? t + room / speed : finish;
+    if (sure && next >= finish && other.until >= finish) {
+      if (last_clear) *last_clear = finish;
+      return -1.0;
+    }
     t = std::min({finish, next, other.until});
   }
 }
@@ -172,17 +212,30 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
 Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from, double required,
                            Ticks limit) const {
   const Track& track = *tracks_[static_cast<std::size_t>(id)];
-  Ticks t = from;
-  while (t <= limit && t < track.gone()) {
+  const Circle mine = placed(body.bound(), at);
+  Ticks still = 0;
+  const auto missing = [&](Ticks t) {
     const Track::Sight other = track.at(t);
-    const double dx = at.x - other.frame.x, dy = at.y - other.frame.y;
-    const double apart = body.circumradius() + other.body->circumradius() + required;
-    if (dx * dx + dy * dy >= apart * apart) return t;
-    const double missing = required - gap(body, at, *other.body, other.frame, required);
-    if (missing <= 0.0) return t;
+    const Circle its = placed(other.body->bound(), other.frame);
+    const double dx = mine.x - its.x, dy = mine.y - its.y;
+    const double apart = mine.r + its.r + required;
+    if (dx * dx + dy * dy >= apart * apart) return 0.0;
+    still = other.still;
+    return required - gap(body, at, *other.body, other.frame, required);
+  };
+  Ticks before = from, t = from;
+  while (t <= limit && t < track.gone()) {
+    const double lacking = missing(t);
+    if (lacking <= 0.0) {
+      for (Ticks step = (t - before) / 2; step > kMarch / 4; step /= 2) {
+        if (missing(t - step) <= 0.0) t -= step;
+      }
+      return t;
+    }
     const auto wait =
-        static_cast<Ticks>(track.speed() > 0.0 ? std::min(missing / track.speed(), 1e6) : 0.0);
-    t = std::max({t + kMarch, t + wait, other.still});
+        static_cast<Ticks>(track.speed() > 0.0 ? std::min(lacking / track.speed(), 1e6) : 0.0);
+    before = std::max(t + wait, still);
+    t = std::max(t + kMarch, before);
   }
   return t >= track.gone() ? track.gone() : t;
 }

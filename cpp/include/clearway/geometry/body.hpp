@@ -15,10 +15,19 @@ struct Segment {
   Point p, q;
 };
 
+// A rectangle: its centre's frame and half its sides.
+struct Rectangle {
+  Frame centre;
+  double along = 0.0, across = 0.0;
+};
+
 // Convex polygon, counter-clockwise, with its outward edge normals and their offsets.
 class Convex {
  public:
   explicit Convex(std::vector<Point> vertices);
+
+  // As a rectangle, where it is one; else null.
+  const Rectangle* rectangle() const { return is_rectangle_ ? &rectangle_ : nullptr; }
 
   const std::vector<Point>& vertices() const { return vertices_; }
 
@@ -35,6 +44,8 @@ class Convex {
   std::vector<Point> vertices_;
   std::vector<Point> normals_;
   std::vector<double> offsets_;
+  Rectangle rectangle_;
+  bool is_rectangle_ = false;
 };
 
 class Body {
@@ -47,6 +58,8 @@ class Body {
 
   // Radius about the reference point that holds the whole body.
   double circumradius() const { return circumradius_; }
+  // A small circle that holds the whole body, wherever its centre lies.
+  const Circle& bound() const { return bound_; }
   // Radius about the reference point that the body covers; 0 if the point lies outside.
   double inradius() const { return inradius_; }
   // Circles that together cover the body.
@@ -57,6 +70,7 @@ class Body {
   double disc_ = 0.0;
   double circumradius_ = 0.0;
   double inradius_ = 0.0;
+  Circle bound_;
   std::vector<Circle> cover_;
 };
 

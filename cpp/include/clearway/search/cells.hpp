@@ -22,9 +22,16 @@ class Cells {
   static constexpr std::size_t kMostLegs = 1 << 14, kMostModes = 63;
   static constexpr int kMostHeadings = 256;
 
-  // `cell` (m); `waiting`: cost of a tick of waiting.
-  Cells(double cell, double waiting) : inverse_(1.0 / cell), waiting_(waiting) {
-    slots_.assign(1U << 14, Slot{});
+  Cells() : slots_(1U << 12) {}
+
+  // Forget everything. `cell` (m); `waiting`: cost of a tick of waiting.
+  void reset(double cell, double waiting) {
+    inverse_ = 1.0 / cell;
+    waiting_ = waiting;
+    by_mode_ = false;
+    used_ = 0;
+    entries_.clear();
+    ++round_;
   }
 
   // Whether mode tells states apart (it does where a switch costs something).
@@ -34,6 +41,7 @@ class Cells {
   const Interval* covering(double x, double y, int k, int leg, int mode, Ticks t, double cost,
                            Ticks waited) const {
     const Slot& slot = slots_[find(key(x, y, k, leg, mode))];
+    if (slot.round != round_) return nullptr;
     const double total = cost + waiting_ * waited;
     for (std::int32_t i = slot.head; i >= 0; i = entries_[static_cast<std::size_t>(i)].next) {
       const Interval& seen = entries_[static_cast<std::size_t>(i)].interval;
@@ -49,8 +57,8 @@ class Cells {
     if (4 * (used_ + 1) > 3 * slots_.size()) grow();
     const std::uint64_t wanted = key(x, y, k, leg, mode);
     Slot& slot = slots_[find(wanted)];
-    if (slot.head < 0) {
-      slot.key = wanted;
+    if (slot.round != round_) {
+      slot = {wanted, -1, round_};
       ++used_;
     }
     entries_.push_back({interval, slot.head});
@@ -63,6 +71,7 @@ class Cells {
   struct Slot {
     std::uint64_t key = 0;
     std::int32_t head = -1;
+    std::uint32_t round = 0;  // of an earlier reset: empty
   };
   struct Entry {
     Interval interval;
@@ -84,20 +93,21 @@ class Cells {
     std::uint64_t h = wanted * 0x9E3779B97F4A7C15ULL;
     h ^= h >> 32;
     std::size_t i = h & (slots_.size() - 1);
-    while (slots_[i].head >= 0 && slots_[i].key != wanted) i = (i + 1) & (slots_.size() - 1);
+    while (slots_[i].round == round_ && slots_[i].key != wanted) i = (i + 1) & (slots_.size() - 1);
     return i;
   }
   void grow() {
     std::vector<Slot> old(slots_.size() * 2);
     old.swap(slots_);
     for (const Slot& slot : old) {
-      if (slot.head >= 0) slots_[find(slot.key)] = slot;
+      if (slot.round == round_) slots_[find(slot.key)] = slot;
     }
   }
 
-  double inverse_, waiting_;
+  double inverse_ = 1.0, waiting_ = 1.0;
   bool by_mode_ = false;
   std::size_t used_ = 0;
+  std::uint32_t round_ = 1;
   std::vector<Slot> slots_;
   std::vector<Entry> entries_;
 };

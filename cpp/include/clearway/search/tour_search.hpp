@@ -68,11 +68,13 @@ struct TourResult {
   Ticks arrival = 0;
 };
 
+struct TourMemory;
+
 // Reusable search: keeps its memory and its tables from query to query.
 class TourSearch {
  public:
-  TourSearch(const SearchParams& params, const Objective& objective)
-      : params_(params), objective_(objective) {}
+  TourSearch(const SearchParams& params, const Objective& objective);
+  ~TourSearch();
 
   // `limit`: expansions for this query alone.
   TourResult operator()(const TourQuery& query, std::int64_t limit, Budget& budget);
@@ -80,12 +82,15 @@ class TourSearch {
  private:
   friend class TourRun;
 
-  const GoalDistance& goal_distance(const Statics& statics, double radius, const Pose& goal);
+  // Null where it is not made yet and `make` is false.
+  const GoalDistance* goal_distance(const Statics& statics, double radius, const Pose& goal,
+                                    bool make);
   const HeadingTable& heading_table(const Model& model, bool fine, double theta);
   ConnectTable& connect_table(const Model& model, bool fine);
 
   SearchParams params_;
   Objective objective_;
+  std::unique_ptr<TourMemory> memory_;
   std::map<std::tuple<const Statics*, double, double, double>, GoalDistance> goal_distances_;
   std::map<std::tuple<const Model*, bool, long>, HeadingTable> heading_tables_;
   std::map<std::tuple<const Model*, bool>, ConnectTable> connect_tables_;

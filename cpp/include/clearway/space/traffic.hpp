@@ -39,15 +39,28 @@ class Track {
   Ticks settled() const { return pieces_.empty() ? 0 : pieces_.back().end; }
   Ticks gone() const { return gone_; }
   double speed() const { return speed_; }  // of its fastest body point, m per tick
+  double centre_speed() const { return centre_speed_; }  // of its bounding circle's centre
   double circumradius() const { return circumradius_; }
+  // A circle that holds the body during [begin, end], without trigonometry.
+  Circle around(double begin, double end) const {
+    const double middle = 0.5 * (begin + end);
+    const auto nearest = static_cast<std::size_t>(std::max(0.0, middle) / kSlot + 0.5);
+    Circle c = nearest < centres_.size() ? centres_[nearest] : rest_;
+    if (begin < settled()) c.r += 0.5 * (end - begin + kSlot) * centre_speed_;
+    return c;
+  }
 
  private:
+  static constexpr Ticks kSlot = 256;
+
   const std::vector<Body>* bodies_;
   std::vector<TimedPiece> pieces_;
   std::vector<Frame> frames_;       // at each piece's start, and the last one's end
   std::vector<std::int32_t> slot_;  // first piece of each slot of time
+  std::vector<Circle> centres_;     // bounding circle at the start of each slot
+  Circle rest_;                     // and for good
   Ticks gone_;
-  double speed_ = 0.0;
+  double speed_ = 0.0, centre_speed_ = 0.0;
   double circumradius_ = 0.0;
   bool changes_shape_ = false;
 };
@@ -59,6 +72,9 @@ struct Mover {
   Twist twist;
   double begin = 0.0;
   double duration = 0.0;
+
+  // A circle that holds the body all along.
+  Circle around() const;
 };
 
 class Traffic {
@@ -82,6 +98,15 @@ class Traffic {
 
   // Everything that may come near a mover starting at (x, y), in no order.
   const std::vector<Presence>& near(double x, double y) const;
+
+  // Whether circles around both tell that they keep `required` apart all the time.
+  bool surely_clear(int track, const Circle& mover, double begin, double end,
+                    double required) const {
+    const Circle other = tracks_[static_cast<std::size_t>(track)]->around(begin, end);
+    const double dx = mover.x - other.x, dy = mover.y - other.y;
+    const double apart = mover.r + other.r + required;
+    return dx * dx + dy * dy > apart * apart;
+  }
 
   // First tick at which the mover's gap to a track falls below `required`, or a negative value.
   // `last_clear` becomes the last tick known to be clear before that.
