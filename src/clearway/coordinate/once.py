@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from clearway.assign import build, tours_of
 from clearway.coordinate.system import System
-from clearway.model import Plan, Problem, Scenario
+from clearway.model import Plan, Problem, Scenario, Visit
 from clearway.protocols import Budget, Progress
 
 
@@ -29,14 +29,26 @@ def plan_once(
     Unsupported
         If a part of the system cannot take a feature of the scenario.
     """
-    work = build(scenario, system.weights)
-    _refuse(system.assign.unsupported(work))
-    routes = system.assign(work, seed)
-    tours = system.own_tasks(scenario, tours_of(scenario, routes))
+    tours = _kept(scenario)
+    if tours is None:
+        work = build(scenario, system.weights)
+        _refuse(system.assign.unsupported(work))
+        tours = tours_of(scenario, system.assign(work, seed))
+    tours = system.own_tasks(scenario, tours)
     problem = Problem(scenario.site, scenario.robot_types, scenario.robots, tours)
     _refuse(system.plan.unsupported(problem))
     before_planning()
     return system.plan(problem, budget, seed, progress)
+
+
+def _kept(scenario: Scenario) -> dict[str, tuple[Visit, ...]] | None:
+    """Return the tours where each task is kept for a robot that has no other; else ``None``."""
+    tours: dict[str, tuple[Visit, ...]] = {robot.id: () for robot in scenario.robots}
+    for order in scenario.orders:
+        if order.task.robot is None or tours[order.task.robot]:
+            return None
+        tours[order.task.robot] = order.task.visits
+    return tours
 
 
 def _refuse(reasons: tuple[str, ...]) -> None:

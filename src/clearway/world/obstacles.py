@@ -1,9 +1,14 @@
 """A site's obstacles as the native core wants them: edges, discs and outlines."""
 
+import shapely
+
 from clearway import _core
 from clearway.model import Footprint, Point, Polygon, Site
 
 OPEN_MARGIN = 20.0  # how far beyond open bounds robots may go (m)
+# Bodies may legally reach 2 mm over the bounds but only 1 mm into obstacles: the core, which knows
+# one tolerance, gets bounds that lie this much farther out (m).
+BOUNDS_SHIFT = 0.9e-3
 
 
 def edges(polygon: Polygon) -> list[tuple[Point, Point]]:
@@ -22,7 +27,7 @@ def native_obstacles(site: Site, type_name: str, loaded: bool) -> _core.Obstacle
     ys = [y for _, y in site.bounds]
     margin = OPEN_MARGIN if site.border == "open" else 0.0
     box = (min(xs) - margin, min(ys) - margin, max(xs) + margin, max(ys) + margin)
-    bounds: Polygon = site.bounds
+    bounds = _shifted(site.bounds)
     if site.border == "open":
         bounds = ((box[0], box[1]), (box[2], box[1]), (box[2], box[3]), (box[0], box[3]))
     walls = edges(bounds)
@@ -39,3 +44,8 @@ def native_obstacles(site: Site, type_name: str, loaded: bool) -> _core.Obstacle
             discs.append(obstacle.disc)
     segments = [(*p, *q) for p, q in walls]
     return _core.Obstacles(box, segments, discs, solids, bounds)
+
+
+def _shifted(bounds: Polygon) -> Polygon:
+    outline = shapely.Polygon(bounds).buffer(BOUNDS_SHIFT, join_style="mitre").exterior
+    return tuple((float(x), float(y)) for x, y in outline.coords[:-1])
