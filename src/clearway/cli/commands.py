@@ -244,10 +244,56 @@ def run_bench(arguments: argparse.Namespace) -> int:
     return INTERRUPTED if table.interrupted else DONE
 
 
+def run_generate(arguments: argparse.Namespace) -> int:
+    """Write seeded instances; all of them, or none where one cannot be made."""
+    from clearway.formats.atomic import write_text
+    from clearway.formats.scenario_dump import dump_scenario
+    from clearway.world.generate import generate
+    from clearway.world.sites import covered
+
+    if arguments.count < 1:
+        raise ValueError("count: must be 1 or more, got 0")
+    out, (w, h) = Path(arguments.out), arguments.size
+    made: dict[Path, str] = {}
+    with ProgressLine(quiet=arguments.quiet) as line:
+        for seed in range(arguments.seed, arguments.seed + arguments.count):
+            line.say(f"instance {len(made) + 1} of {arguments.count}")
+            scenario = generate(
+                arguments.kind,
+                robots=arguments.robots,
+                size=(w, h),
+                fleet=arguments.fleet,
+                density=arguments.density,
+                seed=seed,
+            )
+            made_by = (
+                f"Made by: clearway generate {arguments.kind} --robots {arguments.robots} "
+                f"--size {w:.12g} {h:.12g} --fleet {arguments.fleet} --seed {seed}"
+            )
+            if arguments.density is not None:
+                made_by += f" --density {arguments.density:.12g}"
+            share = f"Obstacles cover {100.0 * covered(scenario.site):.1f} % of the floor."
+            made[out / f"{scenario.name}.toml"] = dump_scenario(scenario, f"{made_by}\n{share}")
+    out.mkdir(parents=True, exist_ok=True)
+    written: list[str] = []
+    try:
+        for path, text in made.items():
+            write_text(path, text)
+            written.append(str(path))
+    except KeyboardInterrupt:
+        return interrupted(arguments, f"{len(written)} of {len(made)} files are in {out}")
+    if arguments.json:
+        _print_json({"files": written})
+    else:
+        print("\n".join(written))
+    return DONE
+
+
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "bench": run_bench,
     "check": run_check,
     "demo": run_demo,
+    "generate": run_generate,
     "schema": run_schema,
     "solve": run_solve,
     "validate": run_validate,

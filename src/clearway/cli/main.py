@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import math
 import sys
 from collections.abc import Sequence
 from typing import Any, NoReturn
@@ -38,6 +39,16 @@ def _count(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"must be a whole number, 0 or above, got {text}")
     return int(text)
+
+
+def _number(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"must be a number, got {text}")
+    return value
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -84,6 +95,33 @@ def _parser() -> argparse.ArgumentParser:
     bench.add_argument("--robots", type=_count, default=16)
     bench.add_argument("--tasks", type=_count, default=48)
     bench.add_argument("--instances", type=_count, default=30, help="seeds 0 to N - 1")
+    generate = commands.add_parser("generate", parents=[talk], help="seeded instances for planners")
+    generate.add_argument("kind", metavar="KIND", help="open, shelves, rooms, corridors or yards")
+    generate.add_argument("--out", required=True, metavar="DIR/", help="folder for the scenarios")
+    generate.add_argument("--robots", type=_count, default=25, metavar="N", help="default: 25")
+    generate.add_argument(
+        "--size",
+        type=_number,
+        nargs=2,
+        default=(100.0, 100.0),
+        metavar=("W", "H"),
+        help="metres along x and y (default: 100 100)",
+    )
+    generate.add_argument(
+        "--density",
+        type=_number,
+        metavar="D",
+        help="share of the floor under obstacles (default: the kind's)",
+    )
+    generate.add_argument(
+        "--fleet",
+        default="cars",
+        help="cars (default), carriers, forklifts, shuttles, differentials, holonomics or mixed",
+    )
+    generate.add_argument("--seed", type=_count, default=0, help="of the first one (default: 0)")
+    generate.add_argument(
+        "--count", type=_count, default=1, metavar="K", help="instances, of seeds S to S + K - 1"
+    )
     return parser
 
 
