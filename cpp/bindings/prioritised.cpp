@@ -1,4 +1,4 @@
-#include "clearway/multi/prioritised.hpp"
+#include "clearway/multi/neighbourhoods.hpp"
 
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
@@ -19,20 +19,21 @@ namespace clearway::bindings {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using ProgressCall = std::function<void(int, int, std::int64_t)>;
+using ProgressCall = std::function<void(int, int, std::int64_t, std::optional<double>)>;
 
 struct TeamAnswer {
   TeamResult result;
   bool interrupted = false;
 };
 
-TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents,
+TeamAnswer answer_of(const std::vector<Model>& models, std::vector<Agent> agents,
                      const TeamParams& params, std::uint32_t seed, std::int64_t expansions,
                      std::optional<double> seconds, std::optional<ProgressCall> progress) {
   TeamAnswer answer;
   const Clock::time_point begin = Clock::now();
   Budget budget;
   budget.expansions = expansions;
+  budget.timed = seconds.has_value();
   budget.stop = [&] {
     if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds) {
       return true;
@@ -45,14 +46,19 @@ TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents
     return true;
   };
   Clock::time_point told = begin;
-  PrioritisedPlanner::Progress tell;
+  Progress tell;
+  bool complete = false;
   if (progress) {
-    tell = [&](int planned, int total, std::int64_t spent) {
-      if (Clock::now() - told < std::chrono::milliseconds(200)) return;
+    tell = [&](int planned, int total, std::int64_t spent, std::int64_t cost) {
+      const bool first = cost >= 0 && !complete;
+      if (!first && Clock::now() - told < std::chrono::milliseconds(200)) return;
+      complete = complete || first;
       told = Clock::now();
       nb::gil_scoped_acquire gil;
       try {
-        (*progress)(planned, total, spent);
+        (*progress)(planned, total, spent,
+                    cost < 0 ? std::nullopt
+                             : std::optional<double>(static_cast<double>(cost) / kTicksPerSecond));
       } catch (nb::python_error& error) {
         if (!error.matches(PyExc_KeyboardInterrupt)) throw;
         answer.interrupted = true;
@@ -60,8 +66,7 @@ TeamAnswer plan_team(const std::vector<Model>& models, std::vector<Agent> agents
     };
   }
   nb::gil_scoped_release release;
-  PrioritisedPlanner planner(models, std::move(agents), params, std::move(tell));
-  answer.result = planner(seed, budget);
+  answer.result = plan_team(models, std::move(agents), params, seed, budget, tell);
   return answer;
 }
 
@@ -109,18 +114,24 @@ void bind_prioritised(nb::module_& m) {
       .def_rw("committed", &Agent::committed)
       .def_rw("legs", &Agent::legs)
       .def_rw("rest_body", &Agent::rest_body)
-      .def_rw("fixed", &Agent::fixed);
+      .def_rw("fixed", &Agent::fixed)
+      .def_rw("bound", &Agent::bound);
   nb::class_<SearchParams>(m, "SearchParams", "Parameters of the single-robot search.")
       .def(nb::init<>())
       .def_rw("weight", &SearchParams::weight)
+      .def_rw("greed", &SearchParams::greed)
       .def_rw("tail_weight", &SearchParams::tail_weight)
       .def_rw("soft_weight", &SearchParams::soft_weight)
       .def_rw("cell", &SearchParams::cell)
       .def_rw("shot_words", &SearchParams::shot_words);
+  nb::enum_<Aim>(m, "Aim", "What the sum over robots, or the last of them, is to be least of.")
+      .value("SUM_OF_COSTS", Aim::kSumOfCosts)
+      .value("MAKESPAN", Aim::kMakespan);
   nb::class_<TeamParams>(m, "TeamParams", "Parameters of prioritised planning.")
       .def(nb::init<>())
       .def_rw("search", &TeamParams::search)
       .def_rw("objective", &TeamParams::objective)
+      .def_rw("aim", &TeamParams::aim)
       .def_rw("margin", &TeamParams::margin)
       .def_rw("first_penalty", &TeamParams::first_penalty)
       .def_rw("penalty_growth", &TeamParams::penalty_growth)
@@ -129,7 +140,9 @@ void bind_prioritised(nb::module_& m) {
       .def_rw("jitter", &TeamParams::jitter)
       .def_rw("search_limit", &TeamParams::search_limit)
       .def_rw("alone_limit", &TeamParams::alone_limit)
-      .def_rw("restarts", &TeamParams::restarts);
+      .def_rw("restarts", &TeamParams::restarts)
+      .def_rw("repair_limit", &TeamParams::repair_limit)
+      .def_rw("neighbourhood", &TeamParams::neighbourhood);
   nb::class_<TourStop>(m, "TourStop", "A visit made: its leg, ticks of arrival and leaving.")
       .def_ro("leg", &TourStop::leg)
       .def_ro("arrive", &TourStop::arrive)
@@ -152,10 +165,17 @@ void bind_prioritised(nb::module_& m) {
       .def_prop_ro("searches", [](const TeamAnswer& a) { return a.result.searches; })
       .def_prop_ro("rip_ups", [](const TeamAnswer& a) { return a.result.rip_ups; })
       .def_prop_ro("restarts", [](const TeamAnswer& a) { return a.result.restarts; })
+      .def_prop_ro("repairs", [](const TeamAnswer& a) { return a.result.repairs; })
+      .def_prop_ro("repaired", [](const TeamAnswer& a) { return a.result.repaired; })
+      .def_prop_ro("first_expansions", [](const TeamAnswer& a) { return a.result.first_expansions; })
+      .def_prop_ro("first_cost",
+                   [](const TeamAnswer& a) {
+                     return static_cast<double>(a.result.first_cost) / kTicksPerSecond;
+                   })
       .def_ro("interrupted", &TeamAnswer::interrupted);
-  m.def("plan_team", &plan_team, "models"_a, "agents"_a, "params"_a, "seed"_a, "expansions"_a = -1,
+  m.def("plan_team", &answer_of, "models"_a, "agents"_a, "params"_a, "seed"_a, "expansions"_a = -1,
         "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
-        "Plan a team one after another; an interrupt or the budget ends it with what there is.");
+        "Plan a team, then plan it better until the budget or an interrupt ends that.");
 }
 
 }  // namespace clearway::bindings

@@ -1,4 +1,4 @@
-#include "clearway/multi/prioritised.hpp"
+#include "clearway/multi/neighbourhoods.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,14 +10,14 @@ using Status = TeamResult::Status;
 
 namespace {
 
-struct Team {
+struct Setting {
   std::vector<Model> models;
   std::vector<Agent> agents;
   TeamParams params;
   std::uint32_t seed = 1;
   Budget budget;
 
-  Team() {
+  Setting() {
     params.restarts = 20;
     params.alone_limit = 20000;
     budget.expansions = 300000;
@@ -31,20 +31,20 @@ struct Team {
   TeamResult run() {
     budget.spent = 0;
     budget.ended = false;
-    PrioritisedPlanner planner(models, agents, params, {});
-    return planner(seed, budget);
+    Team planned(models, agents, params.search, params.objective, params.margin);
+    return PrioritisedPlanner(planned, params, {})(seed, budget);
   }
 };
 
-Team team(const Obstacles& o, double clearance = 0.0) {
-  Team t;
+Setting team(const Obstacles& o, double clearance = 0.0) {
+  Setting t;
   t.models.push_back(rover(rectangle(1.0, 0.6), o, clearance));
   return t;
 }
 
 Leg to(const Pose& goal, Ticks service = 0, int body = 0) { return {goal, service, body, 0.0}; }
 
-Track track_of(const Team& t, const TeamResult& result, std::size_t i) {
+Track track_of(const Setting& t, const TeamResult& result, std::size_t i) {
   std::vector<TimedPiece> pieces = t.agents[i].committed;
   const auto& tour = result.tours[i].pieces;
   if (result.planned[i]) pieces.insert(pieces.end(), tour.begin(), tour.end());
@@ -53,7 +53,7 @@ Track track_of(const Team& t, const TeamResult& result, std::size_t i) {
 }
 
 // Dense sampling with true bodies: nobody overlaps anybody, planned or standing, by over 1 mm.
-void check_apart(const Team& t, const TeamResult& result) {
+void check_apart(const Setting& t, const TeamResult& result) {
   for (std::size_t i = 0; i < t.agents.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const Track a = track_of(t, result, i), b = track_of(t, result, j);
@@ -64,7 +64,7 @@ void check_apart(const Team& t, const TeamResult& result) {
   }
 }
 
-void check_visits(const Team& t, const TeamResult& result) {
+void check_visits(const Setting& t, const TeamResult& result) {
   for (std::size_t i = 0; i < t.agents.size(); ++i) {
     if (!result.planned[i] || t.agents[i].legs.empty() || t.agents[i].fixed) continue;
     REQUIRE(result.tours[i].stops.size() == t.agents[i].legs.size());
@@ -84,7 +84,7 @@ void check_visits(const Team& t, const TeamResult& result) {
   }
 }
 
-void check_solved(const Team& t, const TeamResult& result) {
+void check_solved(const Setting& t, const TeamResult& result) {
   CHECK(result.status == Status::kSolved);
   CHECK(result.concerned.empty());
   CHECK(std::count(result.planned.begin(), result.planned.end(), true) ==
@@ -117,7 +117,7 @@ Obstacles lane_with_siding() {
 }  // namespace
 
 TEST_CASE("Robots far apart drive as if alone") {
-  Team t = team(hall(20, 12));
+  Setting t = team(hall(20, 12));
   t.add({2, 3, 0}, {to({12, 3, 0})});
   t.add({2, 9, 0}, {to({15, 9, 0}, 1000)});
   const TeamResult result = t.run();
@@ -129,14 +129,14 @@ TEST_CASE("Robots far apart drive as if alone") {
 }
 
 TEST_CASE("Two robots swap ends of a lane by its siding") {
-  Team t = team(lane_with_siding());
+  Setting t = team(lane_with_siding());
   t.add({2, 0.65, 0}, {to({18, 0.65, 0})});
   t.add({18, 0.65, kPi}, {to({2, 0.65, kPi})});
   check_solved(t, t.run());
 }
 
 TEST_CASE("Without the siding they cannot, and what is kept of the plan is still clear") {
-  Team t = team(hall(20, 1.3));
+  Setting t = team(hall(20, 1.3));
   t.add({2, 0.65, 0}, {to({18, 0.65, 0})});
   t.add({18, 0.65, kPi}, {to({2, 0.65, kPi})});
   t.params.restarts = 4;
@@ -149,7 +149,7 @@ TEST_CASE("Without the siding they cannot, and what is kept of the plan is still
 }
 
 TEST_CASE("Bound for where another starts, a robot waits until that one has left") {
-  Team t = team(hall(20, 1.3));
+  Setting t = team(hall(20, 1.3));
   t.add({8, 0.65, 0}, {to({18, 0.65, 0})});
   t.add({2, 0.65, 0}, {to({8, 0.65, 0})});
   const TeamResult result = t.run();
@@ -161,7 +161,7 @@ TEST_CASE("Bound for where another starts, a robot waits until that one has left
 TEST_CASE("A robot that nobody lets out is stuck alone, and that is said of him alone") {
   Obstacles o = hall(20, 12);
   o.segments.push_back({{10, 0}, {10, 12}});
-  Team t;
+  Setting t;
   t.models.push_back(rover(rectangle(1.6, 1.6), o));
   t.add({4, 3, 0}, {to({4, 9, 0})});
   t.add({4, 6, 0}, {to({16, 6, 0})});
@@ -173,7 +173,7 @@ TEST_CASE("A robot that nobody lets out is stuck alone, and that is said of him 
 }
 
 TEST_CASE("When effort runs out the best plan so far is kept and says whom it lacks") {
-  Team t = team(hall(12, 12));
+  Setting t = team(hall(12, 12));
   for (int i = 0; i < 5; ++i) {
     const double y = 1.5 + 2.0 * i;
     t.add({1.5, y, 0}, {to({10.5, 9.5 - 2.0 * i, 0}), to({1.5, y, 0})});
@@ -198,7 +198,7 @@ TEST_CASE("When effort runs out the best plan so far is kept and says whom it la
 }
 
 TEST_CASE("Asked to stop, it stops") {
-  Team t = team(hall(20, 1.3));
+  Setting t = team(hall(20, 1.3));
   t.add({2, 0.65, 0}, {to({18, 0.65, 0})});
   t.add({18, 0.65, kPi}, {to({2, 0.65, kPi})});
   t.budget.expansions = -1;
@@ -209,7 +209,7 @@ TEST_CASE("Asked to stop, it stops") {
 }
 
 TEST_CASE("The same seed gives the same plan to the tick") {
-  Team t = team(lane_with_siding());
+  Setting t = team(lane_with_siding());
   t.add({2, 0.65, 0}, {to({18, 0.65, 0}), to({10, 0.65, 0})});
   t.add({18, 0.65, kPi}, {to({2, 0.65, kPi})});
   for (const std::uint32_t seed : {1U, 7U}) {
@@ -219,7 +219,7 @@ TEST_CASE("The same seed gives the same plan to the tick") {
 }
 
 TEST_CASE("A robot without visits and one that is fixed are avoided, not moved") {
-  Team t = team(hall(20, 12));
+  Setting t = team(hall(20, 12));
   t.add({2, 6, 0}, {to({17, 6, 0})});
   t.add({8, 6, 1.0}, {});
   t.add({12, 1, kPi / 2}, {});
@@ -236,7 +236,7 @@ TEST_CASE("A robot without visits and one that is fixed are avoided, not moved")
 TEST_CASE("A fixed robot that runs over one without a way says until when the plan holds") {
   Obstacles o = hall(20, 12);
   o.segments.push_back({{15, 0}, {15, 12}});
-  Team t;
+  Setting t;
   t.models.push_back(rover(rectangle(1.6, 1.6), o));
   t.add({8, 6, 0}, {to({18, 6, 0})});  // behind a wall
   t.add({2, 6, 0}, {});
@@ -250,7 +250,7 @@ TEST_CASE("A fixed robot that runs over one without a way says until when the pl
 }
 
 TEST_CASE("A robot goes on from where its commitment leaves it") {
-  Team t = team(hall(20, 12));
+  Setting t = team(hall(20, 12));
   t.add({2, 6, 0}, {to({12, 6, 0})});
   t.agents[0].committed = {drive(0, 3000, {2, 6, 0}, {3, 0, 0})};
   t.agents[0].ready = 3000;
@@ -261,14 +261,14 @@ TEST_CASE("A robot goes on from where its commitment leaves it") {
 }
 
 TEST_CASE("Starts that touch may part, and visits that touch may be made") {
-  Team t = team(hall(20, 12));
+  Setting t = team(hall(20, 12));
   t.add({2, 6, 0}, {to({12, 6, 0})});
   t.add({2, 6.6, 0}, {to({12, 6.6, 0})});  // side by side, no gap, at both ends
   check_solved(t, t.run());
 }
 
 TEST_CASE("Clearance is kept where the poses of the scenario leave it") {
-  Team t = team(hall(20, 12), 0.25);
+  Setting t = team(hall(20, 12), 0.25);
   t.add({2, 6, 0}, {to({17, 6, 0})});
   t.add({10, 1.5, kPi / 2}, {to({10, 10.5, kPi / 2})});
   const TeamResult result = t.run();
@@ -287,7 +287,7 @@ TEST_CASE("Crowds in open halls and between shelves never overlap") {
       add_solid(o, box_points(4, 4, 6, 10));
       add_solid(o, box_points(9, 4, 11, 10));
     }
-    Team t = team(o);
+    Setting t = team(o);
     t.models.push_back(model_of(rectangle(1.4, 0.8), o, car_table(16), car_table(32)));
     t.budget.expansions = 60000;
     std::vector<Pose> starts, goals;
@@ -315,15 +315,16 @@ TEST_CASE("Crowds in open halls and between shelves never overlap") {
 }
 
 TEST_CASE("Progress is told while planning") {
-  Team t = team(hall(20, 12));
+  Setting t = team(hall(20, 12));
   t.add({2, 3, 0}, {to({12, 3, 0})});
   t.add({2, 9, 0}, {to({15, 9, 0})});
   std::vector<int> told;
-  PrioritisedPlanner planner(t.models, t.agents, t.params,
-                             [&](int planned, int total, std::int64_t) {
-                               told.push_back(planned);
-                               CHECK(total == 2);
-                             });
-  planner(1, t.budget);
-  CHECK(told == std::vector<int>{1, 2});
+  t.budget.expansions = -1;
+  plan_team(t.models, t.agents, t.params, 1, t.budget,
+            [&](int planned, int total, std::int64_t, std::int64_t cost) {
+              told.push_back(planned);
+              CHECK(total == 2);
+              CHECK((cost > 0) == (told.size() == 3));
+            });
+  CHECK(told == std::vector<int>{1, 2, 2});
 }

@@ -10,6 +10,7 @@ namespace clearway {
 struct Budget {
   std::int64_t expansions = -1;  // negative: unlimited
   std::function<bool()> stop;
+  bool timed = false;  // whether `stop` will say so some time
   std::int64_t spent = 0;
   bool ended = false;
 

@@ -12,11 +12,15 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kMaxVertices = 64;
 
-double distance_to_segment(Point p, Point a, Point b) {
+Point nearest_on_segment(Point p, Point a, Point b) {
   const Point ab = b - a;
   const double length2 = dot(ab, ab);
   const double t = length2 > 0.0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-  return length(p - Point{a.x + t * ab.x, a.y + t * ab.y});
+  return {a.x + t * ab.x, a.y + t * ab.y};
+}
+
+double distance_to_segment(Point p, Point a, Point b) {
+  return length(p - nearest_on_segment(p, a, b));
 }
 
 // Circles along the longer side of a convex part's bounding box.
@@ -65,16 +69,25 @@ Convex::Convex(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
                 0.5 * length(v)};
 }
 
-double Convex::gap(Point p) const {
+double Convex::gap(Point p, Point* axis) const {
   double deepest = -kInfinity;
+  std::size_t side = 0;
   for (std::size_t i = 0; i < normals_.size(); ++i) {
-    deepest = std::max(deepest, dot(normals_[i], p) - offsets_[i]);
+    const double depth = dot(normals_[i], p) - offsets_[i];
+    if (depth <= deepest) continue;
+    deepest = depth;
+    side = i;
   }
+  if (axis) *axis = normals_[side];
   if (deepest <= 0.0) return deepest;
   double nearest = kInfinity;
   const std::size_t n = vertices_.size();
   for (std::size_t i = 0; i < n; ++i) {
-    nearest = std::min(nearest, distance_to_segment(p, vertices_[i], vertices_[(i + 1) % n]));
+    const Point q = nearest_on_segment(p, vertices_[i], vertices_[(i + 1) % n]);
+    const double distance = length(p - q);
+    if (distance >= nearest) continue;
+    nearest = distance;
+    if (axis && distance > 1e-9) *axis = {(p.x - q.x) / distance, (p.y - q.y) / distance};
   }
   return nearest;
 }
@@ -97,12 +110,15 @@ double Convex::gap(const Segment& s) const {
   return std::max({best, lo, -hi});
 }
 
-double Convex::separation(const Point* points, std::size_t count, double enough) const {
+double Convex::separation(const Point* points, std::size_t count, double enough,
+                          Point* axis) const {
   double best = -kInfinity;
   for (std::size_t i = 0; i < normals_.size(); ++i) {
     double lo = kInfinity;
     for (std::size_t j = 0; j < count; ++j) lo = std::min(lo, dot(normals_[i], points[j]));
-    best = std::max(best, lo - offsets_[i]);
+    if (lo - offsets_[i] <= best) continue;
+    best = lo - offsets_[i];
+    *axis = normals_[i];
     if (best >= enough) return best;
   }
   return best;
@@ -138,62 +154,78 @@ Body::Body(const std::vector<std::vector<Point>>& parts, double disc_radius) : d
 
 namespace {
 
-// Separating-axis gap of two rectangles, the second one's centre seen from the first one's.
-double gap(const Rectangle& a, const Rectangle& b, const Frame& seen) {
-  const double c = std::abs(seen.c), s = std::abs(seen.s);
-  const double x = std::abs(seen.x), y = std::abs(seen.y);
-  const double u = std::abs(seen.c * seen.x + seen.s * seen.y);
-  const double v = std::abs(seen.c * seen.y - seen.s * seen.x);
-  return std::max(std::max(x - a.along - c * b.along - s * b.across,
-                           y - a.across - s * b.along - c * b.across),
-                  std::max(u - b.along - c * a.along - s * a.across,
-                           v - b.across - s * a.along - c * a.across));
-}
-
 Frame composed(const Frame& a, const Frame& b) {
   const Point p = a.to_world({b.x, b.y});
   return {p.x, p.y, a.c * b.c - a.s * b.s, a.s * b.c + a.c * b.s};
 }
 
-// Separating-axis gap of two convex parts, `b` placed by `seen` in the frame of `a`.
-double gap(const Convex& a, const Convex& b, const Frame& seen, double enough) {
+Point turned(const Frame& f, Point v) { return {f.c * v.x - f.s * v.y, f.s * v.x + f.c * v.y}; }
+
+Separation separation(const Rectangle& a, const Frame& fa, const Rectangle& b, const Frame& fb) {
+  const Frame p = composed(fa, a.centre), q = composed(fb, b.centre);
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  const double c = std::abs(p.c * q.c + p.s * q.s), s = std::abs(p.c * q.s - p.s * q.c);
+  const double along[4] = {p.c * dx + p.s * dy, -p.s * dx + p.c * dy, q.c * dx + q.s * dy,
+                           -q.s * dx + q.c * dy};
+  const double gaps[4] = {std::abs(along[0]) - a.along - c * b.along - s * b.across,
+                          std::abs(along[1]) - a.across - s * b.along - c * b.across,
+                          std::abs(along[2]) - b.along - c * a.along - s * a.across,
+                          std::abs(along[3]) - b.across - s * a.along - c * a.across};
+  const std::size_t first = gaps[0] >= gaps[1] ? 0 : 1, second = gaps[2] >= gaps[3] ? 2 : 3;
+  const std::size_t best = gaps[first] >= gaps[second] ? first : second;
+  const Frame& own = best < 2 ? p : q;
+  const double sign = along[best] < 0.0 ? -1.0 : 1.0;
+  const Point axis = best % 2 == 0 ? Point{own.c, own.s} : Point{-own.s, own.c};
+  return {gaps[best], {sign * axis.x, sign * axis.y}};
+}
+
+Separation separation(const Convex& a, const Frame& fa, const Convex& b, const Frame& fb,
+                      double enough) {
   const Rectangle *first_box = a.rectangle(), *second_box = b.rectangle();
-  if (first_box && second_box) {
-    return gap(*first_box, *second_box,
-               relative(first_box->centre, composed(seen, second_box->centre)));
-  }
+  if (first_box && second_box) return separation(*first_box, fa, *second_box, fb);
   Point buffer[kMaxVertices];
   const auto place = [&buffer](const std::vector<Point>& vertices, const Frame& f) {
     for (std::size_t i = 0; i < vertices.size(); ++i) buffer[i] = f.to_world(vertices[i]);
   };
+  const Frame seen = relative(fa, fb);
+  Point axis;
   place(b.vertices(), seen);
-  const double first = a.separation(buffer, b.vertices().size(), enough);
-  if (first >= enough) return first;
+  const double first = a.separation(buffer, b.vertices().size(), enough, &axis);
+  Separation best{first, turned(fa, axis)};
+  if (first >= enough) return best;
   place(a.vertices(), inverse(seen));
-  return std::max(first, b.separation(buffer, a.vertices().size(), enough));
+  const double second = b.separation(buffer, a.vertices().size(), enough, &axis);
+  if (second <= first) return best;
+  const Point back = turned(fb, axis);
+  return {second, {-back.x, -back.y}};
+}
+
+Separation separation(const Convex& a, const Frame& fa, double disc, const Frame& centre) {
+  Point axis;
+  const double gap = a.gap(fa.to_local({centre.x, centre.y}), &axis) - disc;
+  return {gap, turned(fa, axis)};
 }
 
 }  // namespace
 
+Separation separation(const Body& a, const Convex* part_a, const Frame& fa, const Body& b,
+                      const Convex* part_b, const Frame& fb, double enough) {
+  if (part_a && part_b) return separation(*part_a, fa, *part_b, fb, enough);
+  if (part_a) return separation(*part_a, fa, b.disc(), fb);
+  if (part_b) {
+    const Separation other = separation(*part_b, fb, a.disc(), fa);
+    return {other.gap, {-other.axis.x, -other.axis.y}};
+  }
+  const Point d{fb.x - fa.x, fb.y - fa.y};
+  const double distance = length(d);
+  const Point axis = distance > 0.0 ? Point{d.x / distance, d.y / distance} : Point{1.0, 0.0};
+  return {distance - a.disc() - b.disc(), axis};
+}
+
 double gap(const Body& a, const Frame& fa, const Body& b, const Frame& fb, double enough) {
-  if (a.parts().empty() && b.parts().empty()) {
-    return length({fa.x - fb.x, fa.y - fb.y}) - a.disc() - b.disc();
-  }
   double least = kInfinity;
-  if (a.parts().empty() || b.parts().empty()) {
-    const bool disc_is_a = a.parts().empty();
-    const Body& disc = disc_is_a ? a : b;
-    const Frame& centre = disc_is_a ? fa : fb;
-    const Point p = (disc_is_a ? fb : fa).to_local({centre.x, centre.y});
-    for (const Convex& part : (disc_is_a ? b : a).parts()) {
-      least = std::min(least, part.gap(p) - disc.disc());
-    }
-    return least;
-  }
-  const Frame seen = relative(fa, fb);
-  for (const Convex& pa : a.parts()) {
-    for (const Convex& pb : b.parts()) least = std::min(least, gap(pa, pb, seen, enough));
-  }
+  for_each_separation(a, fa, b, fb, enough,
+                      [&least](const Separation& s) { least = std::min(least, s.gap); });
   return least;
 }
 

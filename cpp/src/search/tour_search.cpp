@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kCoarsestGoalCell = 0.5, kFinestGoalCell = 0.1;  // of goal distances (m)
 constexpr int kMostDelays = 64;  // departures tried for one motion before it is given up
+constexpr std::int64_t kFirstGreed = 128;  // expansions until a search grows greedier
+constexpr double kMostWeight = 2.5;
+constexpr double kCertain = 0.95;  // share of an estimate that is relied on
 constexpr std::int32_t kNone = -1;
 
 struct Node {
@@ -28,6 +31,8 @@ struct Node {
   std::int16_t leg, k, mode;
   bool arrives;  // the edge ended at the visit of leg - 1
   bool driven;   // the edge is known to be clear; until then its cost is a lower bound
+  std::int8_t delays;  // departures tried before
+  Ticks after;  // the end of the edge is occupied then: depart once it is free again; or kNever
 };
 
 struct Open {
@@ -67,7 +72,9 @@ class TourRun {
         table_(query.fine ? query.model->fine : query.model->table),
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
-        weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
+        weight_(query.penalty         ? search.params_.soft_weight
+                : query.weight >= 0.0 ? query.weight
+                                      : search.params_.weight),
         meet_(query.traffic, query.required),
         cells_(search.memory_->cells),
         nodes_(search.memory_->nodes),
@@ -87,17 +94,20 @@ class TourRun {
   void prepare();
   void look_ahead();
   void learn_distance(int leg);
+  void grow_greedy();
+  void sort_anew();
   double estimate(int leg, double x, double y, double theta);
   double priority(const Node& node);
   void expand(std::int32_t index);
   void shoot(std::int32_t index);
   bool drive(std::int32_t index);
   bool passable(const Node& node) const;
-  bool launch(Node& child, Ticks from) const;
+  bool launch(Node& child) const;
   bool pay(Node& child);
-  void relaunch(const Node& node, Ticks from);
+  void retry(const Node& node, Ticks met);
   void depart(Node& child, Ticks departure) const;
   void push(const Node& child);
+  bool is_useful(const Node& node);
   void arrive(std::int32_t index);
   Drive edge_of(std::int32_t edge) const;
   double price(int track) const;
@@ -127,6 +137,7 @@ class TourRun {
   const std::vector<Leg>& legs_;
   ConnectTable& connect_table_;
   double weight_;
+  std::int64_t next_greed_ = kFirstGreed;
   Encounters meet_;
   Cells& cells_;
   std::vector<Node>& nodes_;
@@ -193,6 +204,18 @@ void TourRun::learn_distance(int leg) {
   const auto l = static_cast<std::size_t>(leg);
   distances_[l] = s_.goal_distance(statics(leg), body(leg).inradius(), legs_[l].goal, true);
   look_ahead();
+  sort_anew();
+}
+
+// The longer a search lasts, the more it goes for the goal.
+void TourRun::grow_greedy() {
+  next_greed_ *= 2;
+  if (q_.below < std::numeric_limits<double>::infinity()) return;
+  weight_ = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
+  sort_anew();
+}
+
+void TourRun::sort_anew() {
   for (Open& entry : open_) entry.f = priority(nodes_[static_cast<std::size_t>(entry.node)]);
   std::erase_if(open_, [](const Open& entry) { return !std::isfinite(entry.f); });
   std::make_heap(open_.begin(), open_.end());
@@ -257,9 +280,9 @@ bool TourRun::may_stay(const Body& serving, const Frame& at, Ticks arrival, Tick
   return false;
 }
 
-// Find the first departure at or after `from`, within the parent's safe interval, at which the
-// child's edge can be driven and its end be occupied as long as needed.
-bool TourRun::launch(Node& child, Ticks from) const {
+// Try to drive the child's edge when it departs. True: it is driven. False: not then; if it may be
+// tried again, its departure is a later one, else kNever.
+bool TourRun::launch(Node& child) const {
   const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
   const Drive edge = edge_of(child.edge);
   const Body& moving = body(parent.leg);
@@ -267,40 +290,33 @@ bool TourRun::launch(Node& child, Ticks from) const {
   const Frame end = frame(child);
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
   const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
-  const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
-  const Ticks earliest = child.departure;
+  const Ticks departure = child.departure, arrival = departure + edge.duration;
   child.hits = parent.hits;
-  Ticks departure = from;
-  for (int delay = 0; delay < kMostDelays; ++delay) {
-    if (departure > parent.end || (departure > earliest && !can_wait)) return false;
-    const Ticks arrival = departure + edge.duration;
-    const Ticks standing = departure - parent.t + (s_.objective_.time ? service : 0);
-    if (const Interval* seen =
-            cells_.covering(child.x, child.y, child.k, child.leg, child.mode, arrival + service,
-                            parent.cost + child.step, standing)) {
-      if (seen->end >= kNever || !q_.traffic) return false;
-      const Ticks clear = meet_.next_free(body(body_leg(child.leg)), end, seen->met, parent.hits);
-      if (clear >= kNever) return false;
-      departure = std::max(departure + 1, clear - edge.duration - service);
-      continue;
+  Ticks later = kNever;
+  if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode,
+                                             child.t, child.cost, 0)) {
+    if (seen->end < kNever && q_.traffic) {
+      later = meet_.next_free(body(body_leg(child.leg)), end, seen->met, parent.hits);
+      if (later < kNever) later -= edge.duration + service;
     }
+  } else {
     int track = 0;
-    Ticks later = 0;
-    if (meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
-      if (later >= kNever) return false;
-      departure = std::max(departure + 1, later);
-      continue;
-    }
-    if (child.arrives) {
-      Ticks better = arrival;
-      if (!may_stay(moving, end, arrival, service, last, last ? kNone : parent.hits, &better)) {
-        if (better >= kNever) return false;
-        departure = std::max(departure + 1, better - edge.duration);
-        continue;
+    if (!meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
+      if (!child.arrives ||
+          may_stay(moving, end, arrival, service, last, last ? kNone : parent.hits, &later)) {
+        child.driven = true;
+        return true;
       }
+      if (later < kNever) later -= edge.duration;
     }
-    depart(child, departure);
-    return true;
+  }
+  const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
+  later = later < kNever ? std::max(departure + 1, later) : kNever;
+  if (!can_wait || later >= kNever || later > parent.end || child.delays >= kMostDelays) {
+    child.departure = kNever;
+  } else {
+    ++child.delays;
+    depart(child, later);
   }
   return false;
 }
@@ -337,6 +353,7 @@ bool TourRun::pay(Node& child) {
   }
   depart(child, child.departure);
   child.cost += penalties;
+  child.driven = true;
   return true;
 }
 
@@ -355,12 +372,23 @@ void TourRun::depart(Node& child, Ticks departure) const {
 
 void TourRun::push(const Node& child) {
   const double f = priority(child);
-  if (!std::isfinite(f)) return;
+  if (!std::isfinite(f) || !is_useful(child)) return;
   const auto index = static_cast<std::int32_t>(nodes_.size());
   nodes_.push_back(child);
   open_.push_back({f, index});
   std::push_heap(open_.begin(), open_.end());
   if (child.driven) arrive(index);
+}
+
+// Whether a node may still lead to a way that costs little enough. The estimate is that of its
+// cell, so that a little is given back.
+bool TourRun::is_useful(const Node& node) {
+  if (node.cost >= q_.below) return false;
+  if (q_.below == std::numeric_limits<double>::infinity()) return true;
+  const auto leg = static_cast<std::size_t>(node.leg);
+  if (leg >= legs_.size()) return true;
+  const double ahead = estimate(node.leg, node.x, node.y, theta(node)) + tail_[leg];
+  return node.cost + kCertain * ahead < q_.below;
 }
 
 // Remember the best complete way.
@@ -371,18 +399,28 @@ void TourRun::arrive(std::int32_t index) {
   // Nothing can come to rest before the pose is free for good: good enough, no longer a search.
   const Ticks arrival = node.t - legs_.back().service;
   if (s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
+      q_.below == std::numeric_limits<double>::infinity() &&
       arrival - earliest_rest_ <= 1000 + (earliest_rest_ - q_.ready) / 10) {
-    found_ = index;
+    found_ = best_;
   }
 }
 
-// Drive a node's own edge again, later.
-void TourRun::relaunch(const Node& node, Ticks from) {
-  if (node.parent == kNone) return;
+// Drive a node's own edge again, to arrive once whoever is met at its end has left. When that is,
+// is found out if the node comes up.
+void TourRun::retry(const Node& node, Ticks met) {
+  if (node.parent == kNone || !q_.traffic) return;
   const Node& parent = nodes_[static_cast<std::size_t>(node.parent)];
-  if (!s_.objective_.time && q_.penalty && node.hits != parent.hits) return;
+  const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
+  if (!can_wait || (!s_.objective_.time && q_.penalty && node.hits != parent.hits)) return;
   Node child = node;
-  if (launch(child, std::max(from, node.departure + 1))) push(child);
+  const Ticks departure = node.departure + std::max(1, met - node.t);
+  if (departure > parent.end) return;
+  child.hits = parent.hits;
+  child.driven = false;
+  child.delays = 0;
+  child.after = met;
+  depart(child, departure);
+  push(child);
 }
 
 // Whether nothing that stands is in the way of a node's edge.
@@ -413,36 +451,46 @@ bool TourRun::passable(const Node& node) const {
 // false: it is gone, or pushed again for what it really costs.
 bool TourRun::drive(std::int32_t index) {
   Node child = nodes_[static_cast<std::size_t>(index)];
-  const Ticks planned = child.departure;
-  const Interval* seen =
-      cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
-  if (seen && seen->end >= kNever) return false;
-  if (!passable(child)) return false;
-  child.driven = true;
-  bool as_pushed;
-  if (q_.penalty) {
-    const std::size_t before = meet_.size();
-    Node paying = child;
-    const bool can_pay = pay(paying);
-    as_pushed = can_pay && meet_.size() == before;
-    if (as_pushed) {
-      child = paying;
-    } else {
-      if (can_pay) push(paying);
-      if (launch(child, planned)) push(child);
-      return false;
-    }
-  } else {
-    if (!launch(child, planned)) return false;
-    as_pushed = child.departure == planned;
-    if (!as_pushed) {
+  const bool first = child.delays == 0 && child.after == kNever;
+  if (child.after != kNever) {
+    const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
+    const Ticks clear =
+        meet_.next_free(body(body_leg(child.leg)), frame(child), child.after, child.hits);
+    const Ticks later = clear < kNever ? child.departure + clear - child.after : kNever;
+    child.after = kNever;
+    if (later >= kNever || later > parent.end) return false;
+    if (later > child.departure) {
+      child.delays = 1;
+      depart(child, later);
       push(child);
       return false;
     }
   }
-  nodes_[static_cast<std::size_t>(index)] = child;
-  arrive(index);
-  return true;
+  if (first) {
+    const Interval* seen =
+        cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
+    if (seen && seen->end >= kNever) return false;
+    if (!passable(child)) return false;
+    if (q_.penalty) {
+      const std::size_t before = meet_.size();
+      Node paying = child;
+      if (pay(paying)) {
+        if (meet_.size() == before) {
+          nodes_[static_cast<std::size_t>(index)] = paying;
+          arrive(index);
+          return true;
+        }
+        push(paying);
+      }
+    }
+  }
+  if (launch(child)) {
+    nodes_[static_cast<std::size_t>(index)] = child;
+    arrive(index);
+    return true;
+  }
+  if (child.departure < kNever) push(child);
+  return false;
 }
 
 void TourRun::expand(std::int32_t index) {
@@ -462,6 +510,7 @@ void TourRun::expand(std::int32_t index) {
     child.parent = index;
     child.hits = node.hits;
     child.edge = static_cast<std::int32_t>(i);
+    child.after = kNever;
     child.step = objective_of(table_, s_.objective_, primitive_steps_[i]);
     if (switching && !s_.objective_.time) child.step += s_.objective_.mode_switch;
     depart(child, node.t + (switching ? table_.switch_duration : 0));
@@ -502,11 +551,24 @@ void TourRun::shoot(std::int32_t index) {
       if (!s_.objective_.time) child.step += s_.objective_.mode_switch;
     }
     child.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
+    child.after = kNever;
     shots_.push_back(std::move(shot));
     depart(child, node.t + pause);
+    if (q_.penalty) {
+      // What soft search has in hand when its effort ends counts.
+      if (!passable(child)) continue;
+      const std::size_t before = meet_.size();
+      Node paying = child;
+      if (pay(paying)) push(paying);
+      if (meet_.size() == before) continue;
+      child.delays = 1;
+    } else if (earliest_rest_ > q_.ready && child.leg == static_cast<int>(legs_.size())) {
+      // All else is worth as much until the final pose is free for good: try at once.
+      if (!passable(child)) continue;
+      while (!launch(child) && child.departure < kNever) continue;
+      if (!child.driven) continue;
+    }
     push(child);
-    // What soft search has in hand when its effort ends counts.
-    if (q_.penalty) drive(static_cast<std::int32_t>(nodes_.size()) - 1);
   }
 }
 
@@ -549,10 +611,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     const Frame at = frame(node);
     if (const Interval* seen =
             cells_.covering(node.x, node.y, node.k, node.leg, node.mode, node.t, node.cost, 0)) {
-      if (seen->end < kNever && q_.traffic) {
-        const Ticks clear = meet_.next_free(standing, at, seen->met, node.hits);
-        if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
-      }
+      if (seen->end < kNever) retry(node, seen->met);
       continue;
     }
     if (!budget.spend() || ++spent > limit) {
@@ -566,15 +625,13 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost, met});
     shoot(index);
     expand(index);
+    if (spent >= next_greed_) grow_greedy();
     const auto leg = static_cast<std::size_t>(node.leg);
     if (!distances_[leg] &&
         ++spent_on_[leg] > worth_a_distance(statics(node.leg), standing.inradius())) {
       learn_distance(node.leg);
     }
-    if (end < kNever && can_wait && q_.traffic && node.parent != kNone) {
-      const Ticks clear = meet_.next_free(standing, at, met, node.hits);
-      if (clear < kNever) relaunch(node, clear - (node.t - node.departure));
-    }
+    if (end < kNever && can_wait) retry(node, met);
   }
   return found_ == kNone ? result : extract(found_);
 }
@@ -619,6 +676,7 @@ TourResult TourRun::extract(std::int32_t goal) {
   }
   // From now on it stands with this body.
   result.pieces.push_back({t, t + 1, at, {}, -1, q_.rest_body});
+  result.cost = nodes_[static_cast<std::size_t>(goal)].cost;
   result.arrival = result.stops.empty() ? 0 : result.stops.back().arrive;
   return result;
 }

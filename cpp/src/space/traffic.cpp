@@ -7,9 +7,16 @@ namespace clearway {
 
 namespace {
 
-// Speed of a body-frame point under a twist of this duration (m per tick).
-double speed_of(const Twist& t, double x, double y, double duration) {
-  return std::hypot(t.a - t.c * y, t.b + t.c * x) / duration;
+// Way of a body's bounding centre under a whole twist, in the body frame (m).
+Point centre_way(const Twist& t, const Circle& bound) {
+  return {t.a - t.c * bound.y, t.b + t.c * bound.x};
+}
+
+// For how many ticks a room (m) lasts for sure when it closes at first at a rate (m per tick,
+// negative: it opens) that rises by at most `bend` per tick.
+double lasts(double room, double rate, double bend) {
+  const double scale = rate + std::sqrt(rate * rate + 2.0 * bend * room);
+  return scale > 1e-12 ? 2.0 * room / scale : kNever;
 }
 
 Circle placed(const Circle& c, const Frame& f) {
@@ -43,8 +50,8 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
     if (p.end > p.begin) {
       const double travel = p.twist.length() + std::abs(p.twist.c) * body.circumradius();
       speed_ = std::max(speed_, travel / (p.end - p.begin));
-      const Circle& bound = body.bound();
-      centre_speed_ = std::max(centre_speed_, speed_of(p.twist, bound.x, bound.y, p.end - p.begin));
+      const Point way = centre_way(p.twist, body.bound());
+      centre_speed_ = std::max(centre_speed_, length(way) / (p.end - p.begin));
     }
     changes_shape_ = changes_shape_ || p.body != pieces_.front().body;
     while (static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
@@ -68,16 +75,33 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
 Track::Sight Track::at(double tick) const {
   if (tick >= settled()) {
     const int body = pieces_.empty() ? 0 : pieces_.back().body;
-    return {frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], kNever, gone_};
+    return {{frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], {}, 0.0}, kNever, gone_};
   }
   const double slot = std::max(0.0, tick) / kSlot;
   auto i = static_cast<std::size_t>(slot_[static_cast<std::size_t>(slot)]);
   while (tick >= pieces_[i].end) ++i;
   const TimedPiece& p = pieces_[i];
   const Body* body = &(*bodies_)[static_cast<std::size_t>(p.body)];
-  const double until = changes_shape_ ? p.end : kNever;
-  if (p.mode < 0) return {frames_[i], body, until, p.end};
-  return {moved(frames_[i], p.twist.part((tick - p.begin) / (p.end - p.begin))), body, until, 0};
+  if (p.mode < 0) return {{frames_[i], body, {}, 0.0}, static_cast<double>(p.end), p.end};
+  const double duration = p.end - p.begin;
+  const Frame frame = moved(frames_[i], p.twist.part((tick - p.begin) / duration));
+  return {moving(body, frame, p.twist, duration), static_cast<double>(p.end), 0};
+}
+
+double Track::may_be_near(double from, double to, Point p, double apart) const {
+  const double reach = apart + 0.5 * kSlot * centre_speed_;
+  auto slot = static_cast<std::size_t>(std::max(0.0, from) / kSlot + 0.5);
+  for (; slot < centres_.size(); ++slot) {
+    const Circle& c = centres_[slot];
+    const double dx = c.x - p.x, dy = c.y - p.y, r = reach + c.r;
+    const double begin = (static_cast<double>(slot) - 0.5) * kSlot;
+    if (begin > to) return begin;
+    if (dx * dx + dy * dy <= r * r) return std::max(from, begin);
+  }
+  const double dx = rest_.x - p.x, dy = rest_.y - p.y, r = reach + rest_.r;
+  return dx * dx + dy * dy <= r * r
+             ? std::max(from, (static_cast<double>(centres_.size()) - 0.5) * kSlot)
+             : kNever;
 }
 
 Traffic::Traffic(const Box& box, double radius, double reach, double gap)
@@ -155,10 +179,23 @@ void Traffic::remove(int id) {
   --count_;
 }
 
+Motion moving(const Body* body, const Frame& frame, const Twist& twist, double duration) {
+  const Point way = centre_way(twist, body->bound());
+  return {frame,
+          body,
+          {(frame.c * way.x - frame.s * way.y) / duration,
+           (frame.s * way.x + frame.c * way.y) / duration},
+          std::abs(twist.c) / duration};
+}
+
+Motion Mover::at(double tick) const {
+  if (twist.a == 0.0 && twist.b == 0.0 && twist.c == 0.0) return {start, body, {}, 0.0};
+  return moving(body, moved(start, twist.part((tick - begin) / duration)), twist, duration);
+}
+
 Circle Mover::around() const {
-  const Circle& bound = body->bound();
-  Circle c = placed(bound, moved(start, twist.part(0.5)));
-  c.r += 0.5 * speed_of(twist, bound.x, bound.y, 1.0);
+  Circle c = placed(body->bound(), moved(start, twist.part(0.5)));
+  c.r += 0.5 * length(centre_way(twist, body->bound()));
   return c;
 }
 
@@ -171,40 +208,54 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
   const double radius = mover.body->circumradius();
   const double travel = mover.twist.length() + std::abs(mover.twist.c) * radius;
   const double own_speed = travel > 0.0 ? travel / mover.duration : 0.0;
-  const Circle& bound = mover.body->bound();
-  const double centre_speed =
-      travel > 0.0 ? speed_of(mover.twist, bound.x, bound.y, mover.duration) : 0.0;
   const double slack = step_slack(required);
   if (last_clear) *last_clear = t;
   while (true) {
+    const Motion self = mover.at(t);
+    const Point mine = self.centre();
+    if (travel == 0.0) {
+      const double near = track.may_be_near(t, finish, mine, mover.body->bound().r + required);
+      if (last_clear && near > t) *last_clear = std::min(std::max(t, near - 1.0), finish);
+      if (near > finish) return -1.0;
+      t = near;
+    }
     const Track::Sight other = track.at(t);
-    const Frame self =
-        travel > 0.0 ? moved(mover.start, mover.twist.part((t - mover.begin) / mover.duration))
-                     : mover.start;
-    const Circle mine = placed(bound, self), its = placed(other.body->bound(), other.frame);
-    const double dx = mine.x - its.x, dy = mine.y - its.y;
-    const double apart = mine.r + its.r + required;
-    const double square = dx * dx + dy * dy;
-    const bool settled = t >= track.settled();
-    double room, speed;
-    bool sure = true;  // that nothing happens before the room is used up
-    if (square > (apart + slack) * (apart + slack)) {
-      room = std::sqrt(square) - apart;
-      speed = centre_speed + (settled ? 0.0 : track.centre_speed());
+    const Point its = other.centre();
+    const Point apart{its.x - mine.x, its.y - mine.y};
+    const double reach = mover.body->bound().r + other.body->bound().r + required;
+    const double bend = length(self.velocity) * self.turn + length(other.velocity) * other.turn;
+    const double distance = length(apart);
+    double sure, speed = own_speed;
+    if (distance > reach + slack) {
+      const Point toward{(self.velocity.x - other.velocity.x) / distance,
+                         (self.velocity.y - other.velocity.y) / distance};
+      sure = lasts(distance - reach, dot(toward, apart), bend);
     } else {
-      room = gap(*mover.body, self, *other.body, other.frame, required + 0.5) - required;
-      if (room < -1e-7) return t;
-      sure = room >= slack;
-      room = std::max(room, slack);  // so that a straight approach is told to its very end
-      speed = own_speed + (settled ? 0.0 : track.speed());
+      // Along the axis of each pair of parts: their centres close, and turning bodies reach out.
+      const Point relative = self.velocity - other.velocity;
+      const double swing =
+          self.turn * mover.body->bound().r + other.turn * other.body->bound().r;
+      double least = kNever;
+      sure = kNever;
+      for_each_separation(*mover.body, self.frame, *other.body, other.frame, required + 2.0,
+                          [&](const Separation& s) {
+                            const double room = s.gap - required;
+                            least = std::min(least, room);
+                            sure = std::min(sure, lasts(std::max(room, 0.0),
+                                                        dot(relative, s.axis) + swing, bend));
+                          });
+      if (least < -1e-7) return t;
+      speed += t >= track.settled() ? 0.0 : track.speed();
     }
     if (last_clear) *last_clear = t;
     if (t >= finish) return -1.0;
-    const double next = speed > 0.0 ? t + room / speed : finish;
-    if (sure && next >= finish && other.until >= finish) {
+    double next = t + sure;
+    if (next >= finish && other.until >= finish) {
       if (last_clear) *last_clear = finish;
       return -1.0;
     }
+    // So that a straight approach is told to its very end.
+    if (speed > 0.0) next = std::max(next, t + slack / speed);
     t = std::min({finish, next, other.until});
   }
 }
@@ -215,11 +266,8 @@ Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from
   const Circle mine = placed(body.bound(), at);
   Ticks still = 0;
   const auto missing = [&](Ticks t) {
+    if (track.may_be_near(t, t, {mine.x, mine.y}, mine.r + required) > t) return 0.0;
     const Track::Sight other = track.at(t);
-    const Circle its = placed(other.body->bound(), other.frame);
-    const double dx = mine.x - its.x, dy = mine.y - its.y;
-    const double apart = mine.r + its.r + required;
-    if (dx * dx + dy * dy >= apart * apart) return 0.0;
     still = other.still;
     return required - gap(body, at, *other.body, other.frame, required);
   };

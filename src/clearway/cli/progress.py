@@ -27,8 +27,22 @@ class ProgressLine:
         if self._width:
             print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)
 
-    def planning(self, planned: int, total: int, expansions: int) -> None:
-        """Show how many robots are planned."""
+    def planning(
+        self,
+        planned: int,
+        total: int,
+        expansions: int,
+        cost: float | None,
+        lower_bound: float | None,
+    ) -> None:
+        """Show how many robots are planned; once all are, how good the plan is."""
+        if cost is not None:
+            told = f"improving: sum of costs {cost:,.1f} s"
+            if lower_bound:
+                gap = 100.0 * (cost / lower_bound - 1.0)
+                told += f", lower bound {lower_bound:,.1f} s, gap {gap:.1f} %"
+            self.say(f"{told}, {expansions:,} expansions")
+            return
         filled = round(24 * planned / max(total, 1))
         bar = "#" * filled + "." * (24 - filled)
         self.say(f"planning [{bar}] {planned}/{total} robots, {expansions:,} expansions")

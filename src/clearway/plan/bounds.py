@@ -1,6 +1,7 @@
 """Lower bounds on what any continuous motion of these robots must cost."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from clearway import _core
@@ -10,10 +11,35 @@ from clearway.world.obstacles import native_body, native_obstacles
 
 @dataclass(frozen=True)
 class Bounds:
-    """Bounds on the sum of costs (s) and on the length driven (m)."""
+    """Bounds on each robot's last arrival (s) and on the length it drives (m), by robot id."""
 
-    seconds: float
-    metres: float
+    arrival: Mapping[str, float]
+    length: Mapping[str, float]
+
+    @property
+    def seconds(self) -> float:
+        """Bound on the sum of costs (s)."""
+        return math.fsum(self.arrival.values())
+
+    @property
+    def metres(self) -> float:
+        """Bound on the length that all drive (m)."""
+        return math.fsum(self.length.values())
+
+
+def curve_bound(robot_type: RobotType, start: Pose, goal: Pose) -> float:
+    """Return the length (m) of the shortest curve that a car-like robot can drive in the open.
+
+    Reeds and Shepp (1990); a robot that may not reverse drives no shorter one.
+    """
+    radius = robot_type.limits.turning_radius
+    if robot_type.kinematics != "ackermann" or radius is None:
+        return start.distance(goal)
+    c, s = math.cos(start.theta), math.sin(start.theta)
+    dx, dy = (goal.x - start.x) / radius, (goal.y - start.y) / radius
+    return radius * _core.reeds_shepp_length(
+        c * dx + s * dy, -s * dx + c * dy, wrap(goal.theta - start.theta)
+    )
 
 
 def leg_bound(robot_type: RobotType, start: Pose, goal: Pose, distance: float) -> float:
@@ -47,22 +73,27 @@ def lower_bounds(problem: Problem) -> Bounds:
     """Return bounds that hold for any continuous motion of the robots, each taken alone.
 
     A leg is at least as long as the shortest any-angle way of the disc that the body holds
-    about its reference point, and lasts at least that at top speed, or the turn at the
-    yaw rate.
+    about its reference point, and as the shortest curve of bounded curvature in the open; it
+    lasts at least that at top speed, or the turn at the yaw rate.
     """
-    seconds, metres = [], []
+    arrival, length = {}, {}
     ways = _Ways(problem.site)
     for robot in problem.robots:
         robot_type = problem.robot_types[robot.type]
         state = problem.state_of(robot)
         at, loads = state.pose, int(state.loaded)
         visits = problem.tours.get(robot.id, ())
+        seconds, metres = [], []
         for i, visit in enumerate(visits):
-            way = ways(robot_type, loads > 0, at, visit.pose)
+            way = max(
+                ways(robot_type, loads > 0, at, visit.pose),
+                curve_bound(robot_type, at, visit.pose),
+            )
             metres.append(way)
             seconds.append(leg_bound(robot_type, at, visit.pose, way))
             if i + 1 < len(visits):
                 seconds.append(visit.service)
             at = visit.pose
             loads += LOAD_CHANGE[visit.load]
-    return Bounds(math.fsum(seconds), math.fsum(metres))
+        arrival[robot.id], length[robot.id] = math.fsum(seconds), math.fsum(metres)
+    return Bounds(arrival, length)

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from clearway import _core
 from clearway.model import (
     LOAD_CHANGE,
+    TICKS_PER_SECOND,
     Piece,
     Pose,
     Problem,
@@ -16,6 +17,7 @@ from clearway.model import (
 )
 from clearway.motion import MODELS, MotionModel
 from clearway.motion.native import native_table
+from clearway.plan.bounds import Bounds
 from clearway.world.obstacles import native_body, native_obstacles
 
 COARSE_HEADINGS, FINE_HEADINGS = 16, 32
@@ -24,8 +26,9 @@ COARSE_HEADINGS, FINE_HEADINGS = 16, 32
 class NativeTeam:
     """Models and agents of a problem, in the problem's order."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, bounds: Bounds) -> None:
         self.problem = problem
+        self.bounds = bounds
         used = {robot.type for robot in problem.robots}
         self.type_names = [name for name in problem.robot_types if name in used]
         self.motion: dict[str, MotionModel] = {}
@@ -67,6 +70,7 @@ class NativeTeam:
         agent.start = _core.Pose(*start)
         agent.mode = -1
         agent.ready = state.tick
+        agent.bound = int(self.bounds.arrival[robot.id] * TICKS_PER_SECOND)
         agent.fixed = fixed is not None
         loads = int(state.loaded)
         if prefix:

@@ -1,5 +1,7 @@
 """Prioritised planning with soft search, rip-up and restarts, in the native core."""
 
+from collections.abc import Callable
+
 from clearway import _core
 from clearway.model import LOAD_CHANGE, Plan, Problem, Status, to_seconds
 from clearway.motion import MODELS
@@ -61,7 +63,8 @@ class PrioritisedPlanner:
         """Return a plan; see `clearway.protocols.Planner`."""
         if not problem.robots:
             return Plan(Status.SOLVED, {}, {}, {}, lower_bound=0.0, cost_lower_bound=0.0)
-        team = NativeTeam(problem)
+        bounds = lower_bounds(problem)
+        team = NativeTeam(problem, bounds)
         answer = _core.plan_team(
             team.models,
             team.agents,
@@ -69,17 +72,17 @@ class PrioritisedPlanner:
             seed,
             -1 if budget.expansions is None else budget.expansions,
             budget.seconds,
-            progress,
+            _with_bound(progress, bounds.seconds),
         )
         trajectories = {}
+        tours, planned = answer.tours, answer.planned
         for i, robot in enumerate(problem.robots):
             committed = problem.state_of(robot).committed
-            if answer.planned[i] and team.agents[i].legs:
-                trajectories[robot.id] = team.trajectory(i, answer.tours[i])
+            if planned[i] and team.agents[i].legs:
+                trajectories[robot.id] = team.trajectory(i, tours[i])
             elif committed:
                 trajectories[robot.id] = committed
         trajectories.update(problem.fixed)
-        bounds = lower_bounds(problem)
         concerned = team.ids(answer.concerned)
         status, reason = _verdict(problem, answer, concerned, self.params.restarts)
         return Plan(
@@ -99,9 +102,22 @@ class PrioritisedPlanner:
                 "searches": answer.searches,
                 "rip_ups": answer.rip_ups,
                 "restarts": answer.restarts,
+                "repairs": answer.repairs,
+                "repaired": answer.repaired,
+                "first_expansions": answer.first_expansions,
                 "interrupted": int(answer.interrupted),
             },
         )
+
+
+def _with_bound(
+    progress: Progress | None, bound: float
+) -> Callable[[int, int, int, float | None], None] | None:
+    if progress is None:
+        return None
+    return lambda planned, total, expansions, cost: progress(
+        planned, total, expansions, cost, bound
+    )
 
 
 def _tasks_in_order(problem: Problem, robot: str) -> tuple[str, ...]:

@@ -6,8 +6,9 @@ from typing import Protocol
 
 from clearway.model import Plan, Problem
 
-Progress = Callable[[int, int, int], None]
-"""Called now and then with robots planned, robots in all, expansions so far."""
+Progress = Callable[[int, int, int, float | None, float | None], None]
+"""Called now and then with robots planned, robots in all, expansions so far; sum of costs (s) of
+the best complete plan, ``None`` before there is one, and its lower bound, ``None`` if unknown."""
 
 
 @dataclass(frozen=True)

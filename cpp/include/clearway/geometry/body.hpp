@@ -1,6 +1,7 @@
 // A robot's body: convex parts or a disc, with exact gaps to other bodies and to obstacles.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "clearway/geometry/pose.hpp"
@@ -31,14 +32,16 @@ class Convex {
 
   const std::vector<Point>& vertices() const { return vertices_; }
 
-  // Gap to a point: exact, negative inside (depth to the nearest edge).
-  double gap(Point p) const;
+  // Gap to a point: exact, negative inside (depth to the nearest edge). `axis`: the direction
+  // along which it is measured, outwards.
+  double gap(Point p, Point* axis = nullptr) const;
 
   // Gap to a segment: exact depth when it cuts, never more than the distance when clear.
   double gap(const Segment& s) const;
 
-  // Largest separation along this polygon's normals of points given in its frame.
-  double separation(const Point* points, std::size_t count, double enough) const;
+  // Largest separation along this polygon's normals of points given in its frame. `axis`: that
+  // normal.
+  double separation(const Point* points, std::size_t count, double enough, Point* axis) const;
 
  private:
   std::vector<Point> vertices_;
@@ -74,6 +77,18 @@ class Body {
   std::vector<Circle> cover_;
 };
 
+// A gap, and the direction in the world, from the first body to the second, along which it was
+// measured: along it the two are that far apart.
+struct Separation {
+  double gap = 0.0;
+  Point axis;
+};
+
+// Calls `visit(separation)` for each pair of a part of `a` with a part of `b`.
+template <typename Visit>
+void for_each_separation(const Body& a, const Frame& fa, const Body& b, const Frame& fb,
+                         double enough, Visit&& visit);
+
 // Signed gap between two placed bodies: exact depth when they overlap, a lower bound of the
 // distance (equal to it except corner against corner) when they do not. Anything at or above
 // `enough` may be returned as soon as it is known.
@@ -82,5 +97,21 @@ double gap(const Body& a, const Frame& fa, const Body& b, const Frame& fb, doubl
 // Signed gap between a placed body and a segment or a disc, likewise.
 double gap(const Body& body, const Frame& f, const Segment& s);
 double gap(const Body& body, const Frame& f, const Circle& disc);
+
+// One pair of parts; a null part stands for the body's disc.
+Separation separation(const Body& a, const Convex* part_a, const Frame& fa, const Body& b,
+                      const Convex* part_b, const Frame& fb, double enough);
+
+template <typename Visit>
+void for_each_separation(const Body& a, const Frame& fa, const Body& b, const Frame& fb,
+                         double enough, Visit&& visit) {
+  const std::size_t num_a = a.parts().size(), num_b = b.parts().size();
+  for (std::size_t i = 0; i < std::max<std::size_t>(1, num_a); ++i) {
+    for (std::size_t j = 0; j < std::max<std::size_t>(1, num_b); ++j) {
+      visit(separation(a, num_a ? &a.parts()[i] : nullptr, fa, b,
+                       num_b ? &b.parts()[j] : nullptr, fb, enough));
+    }
+  }
+}
 
 }  // namespace clearway

@@ -3,28 +3,19 @@
 
 #include <functional>
 #include <random>
-#include <string>
 #include <vector>
 
-#include "clearway/search/tour_search.hpp"
+#include "clearway/multi/team.hpp"
 
 namespace clearway {
 
-// A robot of the team. One with `fixed` pieces, or without legs, is not planned but avoided.
-struct Agent {
-  int model = 0;
-  Pose start;
-  int mode = -1;
-  Ticks ready = 0;  // pieces up to here are committed
-  std::vector<TimedPiece> committed;
-  std::vector<Leg> legs;
-  int rest_body = 0;  // with which it stands after the last leg
-  bool fixed = false;
-};
+// What the sum over robots, or the last of them, is to be least of.
+enum class Aim { kSumOfCosts, kMakespan };
 
 struct TeamParams {
   SearchParams search;
   Objective objective;
+  Aim aim = Aim::kSumOfCosts;
   double margin = 0.01;         // gap kept where the robots' clearance asks for less (m)
   double first_penalty = 5.0;   // soft search: price of running into a robot (s)
   double penalty_growth = 1.5;  // each time a robot is ripped up
@@ -34,6 +25,8 @@ struct TeamParams {
   std::int64_t search_limit = 15000;  // expansions per leg of one search
   std::int64_t alone_limit = 400000;  // for the proof that a robot is stuck alone
   int restarts = 1000;
+  std::int64_t repair_limit = 3000;  // expansions per leg of one search that improves a plan
+  int neighbourhood = 8;             // most robots planned anew at once
 };
 
 struct TeamResult {
@@ -44,15 +37,21 @@ struct TeamResult {
   std::vector<int> concerned;          // robots without a plan, or stuck
   Ticks conflict_free_until = kNever;  // sooner where what is fixed runs over an unplanned robot
   std::int64_t expansions = 0;
+  std::int64_t first_expansions = 0;  // until the first complete plan
+  std::int64_t first_cost = 0;        // its sum of arrivals (ticks)
   int searches = 0, rip_ups = 0, restarts = 0;
+  int repairs = 0, repaired = 0;  // neighbourhoods planned anew, and kept
 };
 
+// Robots planned, robots in all, expansions, and the sum of arrivals of a complete plan (ticks;
+// negative before there is one).
+using Progress =
+    std::function<void(int planned, int total, std::int64_t expansions, std::int64_t cost)>;
+
+// First complete plan of a team; leaves it in the team.
 class PrioritisedPlanner {
  public:
-  using Progress = std::function<void(int planned, int total, std::int64_t expansions)>;
-
-  PrioritisedPlanner(const std::vector<Model>& models, std::vector<Agent> agents,
-                     const TeamParams& params, Progress progress);
+  PrioritisedPlanner(Team& team, const TeamParams& params, const Progress& progress);
 
   // To be called once.
   TeamResult operator()(std::uint32_t seed, Budget& budget);
@@ -60,13 +59,6 @@ class PrioritisedPlanner {
  private:
   enum class Attempt { kDone, kAgain, kStuck, kOver };
 
-  void require_gaps();
-  std::shared_ptr<const Track> track(std::size_t i, const TourResult& tour) const;
-  void insert(std::size_t i, TourResult tour);
-  void remove(std::size_t i);
-  void hold(std::size_t i);
-  void release(std::size_t i);
-  TourQuery query(std::size_t i, const Traffic* traffic) const;
   bool alone(std::size_t i, Budget& budget);
   void find_precedence(const std::vector<std::size_t>& order, Budget& budget);
   std::vector<std::size_t> by_precedence(std::vector<std::size_t> order) const;
@@ -74,30 +66,24 @@ class PrioritisedPlanner {
   void keep_best();
   double first_meeting(const Traffic& others, int other, std::size_t i) const;
   void settle(TeamResult& result) const;
-  const Model& model(std::size_t i) const {
-    return models_[static_cast<std::size_t>(agents_[i].model)];
+  Ticks hold(std::size_t i) const { return static_cast<Ticks>(hold_[i] * kTicksPerSecond); }
+  std::int64_t limit(std::size_t i) const {
+    return params_.search_limit * static_cast<std::int64_t>(team_.agent(i).legs.size());
   }
 
-  const std::vector<Model>& models_;
-  std::vector<Agent> agents_;
-  TeamParams params_;
-  Progress progress_;
-  TourSearch search_;
-  Traffic traffic_;
-  std::vector<std::vector<double>> required_;  // of each agent to each track
+  Team& team_;
+  const TeamParams& params_;
+  const Progress& progress_;
   // Robots not planned yet are ignored, and so may be run over before they can leave. A robot to
-  // whom that happened stands at its start for this long in the eyes of those planned before it,
-  // as a track of its own (number of agents + i). What it is committed to
-  // is a third (2 * number of agents + i).
+  // whom that happened stands at its start for this long (s) in the eyes of those planned before
+  // it.
   std::vector<double> hold_;
   std::vector<int> times_hit_;
   std::vector<double> penalty_;
   // Who is better planned after me: those whose final rest my lone way crosses, and those whose
   // lone way crosses my start.
   std::vector<std::vector<std::size_t>> followers_;
-  std::vector<TourResult> tours_;
-  std::vector<bool> planned_, can_alone_, fine_;
-  std::size_t num_planned_ = 0, num_to_plan_ = 0;
+  std::vector<bool> can_alone_;
   std::size_t failed_ = 0;
   TeamResult best_;
 };

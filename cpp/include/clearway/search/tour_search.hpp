@@ -1,6 +1,7 @@
 // One robot's way through all its visits: A* over (pose, mode, safe interval).
 #pragma once
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -34,6 +35,7 @@ struct Leg {
 
 struct SearchParams {
   double weight = 1.1;         // on the heuristic: larger is greedier
+  double greed = 0.3;          // added to it whenever the effort so far has doubled
   double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
   double cell = 0.85;          // poses in one cell compete; in shortest steps of the table
@@ -52,6 +54,8 @@ struct TourQuery {
   const std::vector<double>* required = nullptr;  // gap to each track
   const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;
                                                   // negative: it does not move away
+  double weight = -1.0;  // on the heuristic; negative: that of the search
+  double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
 };
 
 struct TourStop {
@@ -66,6 +70,7 @@ struct TourResult {
   std::vector<TourStop> stops;
   std::vector<int> hits;  // tracks that a soft path runs into
   Ticks arrival = 0;
+  double cost = 0.0;  // of the objective
 };
 
 struct TourMemory;

@@ -20,19 +20,34 @@ struct TimedPiece {
   int body = 0;  // index into the robot's bodies: 0 empty, 1 loaded
 };
 
+// A body as it moves at some moment: the velocity (m per tick) of its bounding circle's centre in
+// the world, and how fast it turns (rad per tick).
+struct Motion {
+  Frame frame;
+  const Body* body = nullptr;
+  Point velocity;
+  double turn = 0.0;
+
+  Point centre() const { return frame.to_world({body->bound().x, body->bound().y}); }
+};
+
+// A body at a frame that drives a twist in so many ticks.
+Motion moving(const Body* body, const Frame& frame, const Twist& twist, double duration);
+
 // One robot's motion, gap-free from its first tick; afterwards it stands until it is `gone`.
 class Track {
  public:
   Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
         Ticks gone = kNever);
 
-  struct Sight {
-    Frame frame;
-    const Body* body;
-    double until;  // the body keeps its shape at least to this tick
+  struct Sight : Motion {
+    double until;  // it keeps moving like this at least to this tick
     Ticks still;   // it stands at least to this tick
   };
   Sight at(double tick) const;
+  // First tick within [from, to] at which its bounding circle may come within `apart` of a point;
+  // later than `to` if never.
+  double may_be_near(double from, double to, Point p, double apart) const;
 
   const std::vector<TimedPiece>& pieces() const { return pieces_; }
   // From here on nothing about it changes any more.
@@ -73,6 +88,7 @@ struct Mover {
   double begin = 0.0;
   double duration = 0.0;
 
+  Motion at(double tick) const;
   // A circle that holds the body all along.
   Circle around() const;
 };

@@ -1,0 +1,164 @@
+#include "clearway/multi/team.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clearway {
+
+namespace {
+
+constexpr double kLegalOverlap = 0.001;  // two poses may touch by this much (m)
+
+double largest_circumradius(const std::vector<Model>& models) {
+  double most = 0.0;
+  for (const Model& m : models) {
+    for (const Body& b : m.bodies) most = std::max(most, b.circumradius());
+  }
+  return most;
+}
+
+double reach_of(const std::vector<Model>& models) {
+  double most = 1.0;
+  for (const Model& m : models) most = std::max({most, m.table.reach(), m.fine.reach()});
+  return most;
+}
+
+double largest_gap(const std::vector<Model>& models, double margin) {
+  double most = margin;
+  for (const Model& m : models) most = std::max(most, m.clearance);
+  return most;
+}
+
+}  // namespace
+
+Team::Team(const std::vector<Model>& models, std::vector<Agent> agents, const SearchParams& search,
+           const Objective& objective, double margin)
+    : models_(models),
+      agents_(std::move(agents)),
+      largest_gap_(largest_gap(models, margin)),
+      search_(search, objective),
+      traffic_(empty_traffic()) {
+  places_.resize(size());
+  planned_.assign(size(), false);
+  fine_.assign(size(), false);
+  require_gaps(margin);
+}
+
+Traffic Team::empty_traffic() const {
+  return Traffic(models_.at(0).statics.at(0)->box(), largest_circumradius(models_),
+                 reach_of(models_), largest_gap_);
+}
+
+// Gaps to keep: the clearance, or what the scenario's own poses leave where that is less.
+void Team::require_gaps(double margin) {
+  const std::size_t n = agents_.size();
+  std::vector<double> wanted(n);
+  struct Rest {
+    Frame at;
+    const Body* body;
+  };
+  std::vector<std::vector<Rest>> rests(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Model& m = model(i);
+    wanted[i] = std::max(m.clearance, margin);
+    Pose from = agents_[i].start;
+    if (!agents_[i].committed.empty()) {
+      const TimedPiece& last = agents_[i].committed.back();
+      from = moved(last.start, last.twist);
+    }
+    rests[i].push_back({Frame(from), &m.bodies[0]});
+    for (Leg& leg : agents_[i].legs) {
+      const auto b = static_cast<std::size_t>(leg.body);
+      const double here = m.statics[b]->gap(m.bodies[b], Frame(from));
+      const double there = m.statics[b]->gap(m.bodies[b], Frame(leg.goal));
+      leg.required = std::max(-kLegalOverlap, std::min({wanted[i], here, there}));
+      from = leg.goal;
+      rests[i].push_back({Frame(from), &m.bodies[b]});
+    }
+    rests[i].push_back({Frame(from), &m.bodies[static_cast<std::size_t>(agents_[i].rest_body)]});
+  }
+  required_.assign(n, std::vector<double>(n, 0.0));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double least = std::max(wanted[i], wanted[j]);
+      for (const Rest& a : rests[i]) {
+        for (const Rest& b : rests[j]) {
+          const double near = a.body->circumradius() + b.body->circumradius() + least;
+          const double dx = a.at.x - b.at.x, dy = a.at.y - b.at.y;
+          if (dx * dx + dy * dy > near * near) continue;
+          const double g = gap(*a.body, a.at, *b.body, b.at, least);
+          if (g >= -kLegalOverlap) least = std::min(least, g);
+        }
+      }
+      required_[i][j] = required_[j][i] = least;
+    }
+  }
+  // A robot's holds are tracks of their own: see hold().
+  for (auto& row : required_) {
+    row.resize(3 * n);
+    std::copy_n(row.begin(), n, row.begin() + static_cast<std::ptrdiff_t>(n));
+    std::copy_n(row.begin(), n, row.begin() + static_cast<std::ptrdiff_t>(2 * n));
+  }
+}
+
+TourQuery Team::query(std::size_t i, const Traffic* traffic) const {
+  TourQuery q;
+  const Agent& agent = agents_[i];
+  q.model = &model(i);
+  q.fine = fine_[i];
+  q.start = agent.start;
+  q.mode = agent.mode;
+  q.ready = agent.ready;
+  if (!agent.committed.empty()) {
+    const TimedPiece& last = agent.committed.back();
+    q.start = moved(last.start, last.twist);
+    q.start.theta = wrap(q.start.theta);
+    q.ready = std::max(agent.ready, last.end);
+  }
+  q.legs = &agent.legs;
+  q.rest_body = agent.rest_body;
+  q.traffic = traffic;
+  q.required = &required_[i];
+  return q;
+}
+
+Team::Place Team::place(std::size_t i, TourResult tour) const {
+  std::vector<TimedPiece> pieces = agents_[i].committed;
+  pieces.insert(pieces.end(), tour.pieces.begin(), tour.pieces.end());
+  return {std::move(tour), std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
+                                                         std::move(pieces))};
+}
+
+void Team::insert(std::size_t i, Place place) {
+  traffic_.insert(static_cast<int>(i), place.track);
+  places_[i] = std::move(place);
+  planned_[i] = true;
+  ++num_planned_;
+}
+
+Team::Place Team::remove(std::size_t i) {
+  traffic_.remove(static_cast<int>(i));
+  planned_[i] = false;
+  --num_planned_;
+  return std::exchange(places_[i], Place{});
+}
+
+void Team::hold(std::size_t i, Ticks until) {
+  const Ticks ready = query(i, nullptr).ready;
+  const auto stand = [&](std::size_t id, Ticks gone) {
+    traffic_.insert(static_cast<int>(id),
+                    std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
+                                                  agents_[i].committed, gone));
+  };
+  if (ready > 0) stand(2 * size() + i, ready);
+  if (until > 0) stand(size() + i, until);
+}
+
+void Team::release(std::size_t i) {
+  for (const std::size_t id : {size() + i, 2 * size() + i}) {
+    if (traffic_.has(static_cast<int>(id))) traffic_.remove(static_cast<int>(id));
+  }
+}
+
+}  // namespace clearway
