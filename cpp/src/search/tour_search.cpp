@@ -123,6 +123,7 @@ class TourRun {
   bool launch(Node& child) const;
   bool pay(Node& child);
   void retry(const Node& node, Ticks met);
+  Ticks next_free(const Node& node);
   void depart(Node& child, Ticks departure) const;
   void push(const Node& child);
   bool is_useful(const Node& node);
@@ -314,8 +315,8 @@ bool TourRun::launch(Node& child) const {
   if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode,
                                              child.t, child.cost, 0)) {
     if (seen->end < kNever && q_.traffic) {
-      later = meet_.next_free(body(body_leg(child.leg)), end, seen->met, parent.hits);
-      if (later < kNever) later -= edge.duration + service;
+      child.after = seen->met;
+      later = departure + std::max(1, seen->met - child.t);
     }
   } else {
     int track = 0;
@@ -465,6 +466,19 @@ bool TourRun::passable(const Node& node) const {
   return true;
 }
 
+// When the place of a node is free again. All who come to its cell ask the same.
+Ticks TourRun::next_free(const Node& node) {
+  Interval* seen =
+      node.hits == kNobody
+          ? cells_.meeting(node.x, node.y, node.k, node.leg, node.mode, node.after)
+          : nullptr;
+  if (seen && seen->free >= 0) return seen->free;
+  const Ticks free =
+      meet_.next_free(body(body_leg(node.leg)), frame(node), node.after, node.hits);
+  if (seen) seen->free = free;
+  return free;
+}
+
 // Check a node's edge, now that it is the best there is. True: the node stands as it was pushed;
 // false: it is gone, or pushed again for what it really costs.
 bool TourRun::drive(std::int32_t index) {
@@ -472,8 +486,7 @@ bool TourRun::drive(std::int32_t index) {
   const bool first = child.delays == 0 && child.after == kNever;
   if (child.after != kNever) {
     const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
-    const Ticks clear =
-        meet_.next_free(body(body_leg(child.leg)), frame(child), child.after, child.hits);
+    const Ticks clear = next_free(child);
     const Ticks later = clear < kNever ? child.departure + clear - child.after : kNever;
     child.after = kNever;
     if (later >= kNever || later > parent.end) return false;
@@ -514,6 +527,10 @@ bool TourRun::drive(std::int32_t index) {
 void TourRun::expand(std::int32_t index) {
   const Node node = nodes_[static_cast<std::size_t>(index)];
   const HeadingTable& headings = *headings_[static_cast<std::size_t>(node.leg)];
+  const Statics& around = statics(node.leg);
+  const double loss = around.loss();
+  const double core =
+      body(node.leg).inradius() + legs_[static_cast<std::size_t>(node.leg)].required;
   for (std::size_t i = 0; i < table_.primitives.size(); ++i) {
     const Primitive& p = table_.primitives[i];
     const bool switching = node.mode >= 0 && p.mode != node.mode;
@@ -535,6 +552,8 @@ void TourRun::expand(std::int32_t index) {
     const Interval* seen =
         cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
     if (seen && seen->end >= kNever) continue;
+    // Where not even the disc in the body has room, nothing need be driven.
+    if (around.clearance(child.x, child.y) + loss < core) continue;
     push(child);
   }
 }

@@ -13,7 +13,8 @@ namespace clearway {
 struct Interval {
   Ticks begin = 0, end = 0;
   double cost = 0.0;
-  Ticks met = 0;  // when somebody is in the way, just after `end`
+  Ticks met = 0;    // when somebody is in the way, just after `end`
+  Ticks free = -1;  // when the place is free again; negative: nobody has asked yet
 };
 
 // Open-addressed map from (cell, heading, leg, mode class) to intervals.
@@ -49,6 +50,17 @@ class Cells {
           seen.cost + waiting_ * (t - seen.begin) <= total + 1e-9) {
         return &seen;
       }
+    }
+    return nullptr;
+  }
+
+  // The interval that ends when somebody is met at that tick, or null.
+  Interval* meeting(double x, double y, int k, int leg, int mode, Ticks met) {
+    const Slot& slot = slots_[find(key(x, y, k, leg, mode))];
+    if (slot.round != round_) return nullptr;
+    for (std::int32_t i = slot.head; i >= 0; i = entries_[static_cast<std::size_t>(i)].next) {
+      Interval& seen = entries_[static_cast<std::size_t>(i)].interval;
+      if (seen.met == met) return &seen;
     }
     return nullptr;
   }
