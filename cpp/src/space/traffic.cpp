@@ -50,8 +50,10 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
     if (p.end > p.begin) {
       const double travel = p.twist.length() + std::abs(p.twist.c) * body.circumradius();
       speed_ = std::max(speed_, travel / (p.end - p.begin));
-      const Point way = centre_way(p.twist, body.bound());
-      centre_speed_ = std::max(centre_speed_, length(way) / (p.end - p.begin));
+      rates_.emplace_back(body, p.twist, p.end - p.begin);
+      centre_speed_ = std::max(centre_speed_, rates_.back().speed);
+    } else {
+      rates_.emplace_back();
     }
     changes_shape_ = changes_shape_ || p.body != pieces_.front().body;
     while (static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
@@ -75,17 +77,20 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
 Track::Sight Track::at(double tick) const {
   if (tick >= settled()) {
     const int body = pieces_.empty() ? 0 : pieces_.back().body;
-    return {{frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], {}, 0.0}, kNever, gone_};
+    return {{frames_.back(), &(*bodies_)[static_cast<std::size_t>(body)], {}},
+            static_cast<double>(settled()),
+            kNever,
+            gone_};
   }
   const double slot = std::max(0.0, tick) / kSlot;
   auto i = static_cast<std::size_t>(slot_[static_cast<std::size_t>(slot)]);
   while (tick >= pieces_[i].end) ++i;
   const TimedPiece& p = pieces_[i];
   const Body* body = &(*bodies_)[static_cast<std::size_t>(p.body)];
-  if (p.mode < 0) return {{frames_[i], body, {}, 0.0}, static_cast<double>(p.end), p.end};
-  const double duration = p.end - p.begin;
-  const Frame frame = moved(frames_[i], p.twist.part((tick - p.begin) / duration));
-  return {moving(body, frame, p.twist, duration), static_cast<double>(p.end), 0};
+  const auto since = static_cast<double>(p.begin), until = static_cast<double>(p.end);
+  if (p.mode < 0) return {{frames_[i], body, {}}, since, until, p.end};
+  const Frame frame = moved(frames_[i], p.twist.part((tick - since) / (until - since)));
+  return {{frame, body, rates_[i]}, since, until, 0};
 }
 
 double Track::may_be_near(double from, double to, Point p, double apart) const {
@@ -179,18 +184,11 @@ void Traffic::remove(int id) {
   --count_;
 }
 
-Motion moving(const Body* body, const Frame& frame, const Twist& twist, double duration) {
-  const Point way = centre_way(twist, body->bound());
-  return {frame,
-          body,
-          {(frame.c * way.x - frame.s * way.y) / duration,
-           (frame.s * way.x + frame.c * way.y) / duration},
-          std::abs(twist.c) / duration};
-}
-
-Motion Mover::at(double tick) const {
-  if (twist.a == 0.0 && twist.b == 0.0 && twist.c == 0.0) return {start, body, {}, 0.0};
-  return moving(body, moved(start, twist.part((tick - begin) / duration)), twist, duration);
+Rate::Rate(const Body& body, const Twist& twist, double duration) {
+  const Point way = centre_way(twist, body.bound());
+  velocity = {way.x / duration, way.y / duration};
+  speed = length(velocity);
+  turn = std::abs(twist.c) / duration;
 }
 
 Circle Mover::around() const {
@@ -198,6 +196,46 @@ Circle Mover::around() const {
   c.r += 0.5 * length(centre_way(twist, body->bound()));
   return c;
 }
+
+namespace {
+
+// What two bodies are sure of at a moment: their gap less what is required, and for how many ticks
+// that stays above 0, from then on and before then.
+struct Outlook {
+  double room, ahead, back;
+};
+
+Outlook look(const Motion& self, const Track::Sight& other, double required, double slack) {
+  const Point mine = self.centre(), its = other.centre();
+  const Point apart{its.x - mine.x, its.y - mine.y};
+  const double reach = self.body->bound().r + other.body->bound().r + required;
+  const double bend = self.rate.speed * self.rate.turn + other.rate.speed * other.rate.turn;
+  const Point relative = self.velocity() - other.velocity();
+  const double square = dot(apart, apart);
+  if (square > (reach + slack) * (reach + slack)) {
+    const double distance = std::sqrt(square), rate = dot(relative, apart) / distance;
+    const double room = distance - reach;
+    return {room, lasts(room, rate, bend), lasts(room, -rate, bend)};
+  }
+  // Along the axis of each pair of parts: their centres close, and turning bodies reach out.
+  const double swing =
+      self.rate.turn * self.body->bound().r + other.rate.turn * other.body->bound().r;
+  Outlook sure{kNever, kNever, kNever};
+  for_each_separation(*self.body, self.frame, *other.body, other.frame, required + 2.0,
+                      [&](const Separation& s) {
+                        const double room = s.gap - required, rate = dot(relative, s.axis);
+                        sure.room = std::min(sure.room, room);
+                        if (room <= 0.0) {
+                          sure.ahead = sure.back = 0.0;
+                          return;
+                        }
+                        sure.ahead = std::min(sure.ahead, lasts(room, rate + swing, bend));
+                        sure.back = std::min(sure.back, lasts(room, swing - rate, bend));
+                      });
+  return sure;
+}
+
+}  // namespace
 
 double Traffic::first_conflict(const Presence& who, const Mover& mover, double required,
                                double* last_clear) const {
@@ -209,54 +247,55 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
   const double travel = mover.twist.length() + std::abs(mover.twist.c) * radius;
   const double own_speed = travel > 0.0 ? travel / mover.duration : 0.0;
   const double slack = step_slack(required);
+  Motion self{mover.start, mover.body, {}};
+  if (travel > 0.0) self.rate = Rate(*mover.body, mover.twist, mover.duration);
+  const auto place = [&](double tick) {
+    if (travel > 0.0) {
+      self.frame = moved(mover.start, mover.twist.part((tick - mover.begin) / mover.duration));
+    }
+  };
   if (last_clear) *last_clear = t;
+  // A look from the middle of a drive often tells for all of it.
+  double clear_from = kNever, clear_to = 0.0;
+  if (travel > 0.0) {
+    const double middle = 0.5 * (t + finish);
+    place(middle);
+    const Track::Sight other = track.at(middle);
+    const Outlook sure = look(self, other, required, slack);
+    if (sure.room >= 0.0) {
+      clear_from = std::max(middle - sure.back, other.since);
+      clear_to = std::min(middle + sure.ahead, other.until);
+      if (clear_from <= t) t = std::min(clear_to, finish);
+      if (clear_from <= t && clear_to >= finish) return -1.0;
+    }
+  }
   while (true) {
-    const Motion self = mover.at(t);
-    const Point mine = self.centre();
+    place(t);
     if (travel == 0.0) {
-      const double near = track.may_be_near(t, finish, mine, mover.body->bound().r + required);
+      const double near =
+          track.may_be_near(t, finish, self.centre(), mover.body->bound().r + required);
       if (last_clear && near > t) *last_clear = std::min(std::max(t, near - 1.0), finish);
       if (near > finish) return -1.0;
       t = near;
     }
     const Track::Sight other = track.at(t);
-    const Point its = other.centre();
-    const Point apart{its.x - mine.x, its.y - mine.y};
-    const double reach = mover.body->bound().r + other.body->bound().r + required;
-    const double bend = length(self.velocity) * self.turn + length(other.velocity) * other.turn;
-    const double distance = length(apart);
-    double sure, speed = own_speed;
-    if (distance > reach + slack) {
-      const Point toward{(self.velocity.x - other.velocity.x) / distance,
-                         (self.velocity.y - other.velocity.y) / distance};
-      sure = lasts(distance - reach, dot(toward, apart), bend);
-    } else {
-      // Along the axis of each pair of parts: their centres close, and turning bodies reach out.
-      const Point relative = self.velocity - other.velocity;
-      const double swing =
-          self.turn * mover.body->bound().r + other.turn * other.body->bound().r;
-      double least = kNever;
-      sure = kNever;
-      for_each_separation(*mover.body, self.frame, *other.body, other.frame, required + 2.0,
-                          [&](const Separation& s) {
-                            const double room = s.gap - required;
-                            least = std::min(least, room);
-                            sure = std::min(sure, lasts(std::max(room, 0.0),
-                                                        dot(relative, s.axis) + swing, bend));
-                          });
-      if (least < -1e-7) return t;
-      speed += t >= track.settled() ? 0.0 : track.speed();
-    }
+    const Outlook sure = look(self, other, required, slack);
+    if (sure.room < -1e-7) return t;
     if (last_clear) *last_clear = t;
     if (t >= finish) return -1.0;
-    double next = t + sure;
+    double next = t + sure.ahead;
     if (next >= finish && other.until >= finish) {
       if (last_clear) *last_clear = finish;
       return -1.0;
     }
     // So that a straight approach is told to its very end.
-    if (speed > 0.0) next = std::max(next, t + slack / speed);
+    const double speed = own_speed + (t >= track.settled() ? 0.0 : track.speed());
+    next = speed > 0.0 ? std::max(next, t + slack / speed) : finish;
     t = std::min({finish, next, other.until});
+    if (t >= clear_from && t < clear_to) {
+      t = std::min(clear_to, finish);
+      if (clear_to >= finish) return -1.0;
+    }
   }
 }
 

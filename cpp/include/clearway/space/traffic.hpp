@@ -20,19 +20,28 @@ struct TimedPiece {
   int body = 0;  // index into the robot's bodies: 0 empty, 1 loaded
 };
 
-// A body as it moves at some moment: the velocity (m per tick) of its bounding circle's centre in
-// the world, and how fast it turns (rad per tick).
+// How a body moves under a constant twist: the velocity of its bounding circle's centre in the
+// body frame and its amount (m per tick), and how fast it turns (rad per tick).
+struct Rate {
+  Point velocity;
+  double speed = 0.0, turn = 0.0;
+
+  Rate() = default;
+  Rate(const Body& body, const Twist& twist, double duration);
+};
+
+// A body as it moves at some moment.
 struct Motion {
   Frame frame;
   const Body* body = nullptr;
-  Point velocity;
-  double turn = 0.0;
+  Rate rate;
 
   Point centre() const { return frame.to_world({body->bound().x, body->bound().y}); }
+  Point velocity() const {
+    return {frame.c * rate.velocity.x - frame.s * rate.velocity.y,
+            frame.s * rate.velocity.x + frame.c * rate.velocity.y};
+  }
 };
-
-// A body at a frame that drives a twist in so many ticks.
-Motion moving(const Body* body, const Frame& frame, const Twist& twist, double duration);
 
 // One robot's motion, gap-free from its first tick; afterwards it stands until it is `gone`.
 class Track {
@@ -41,7 +50,7 @@ class Track {
         Ticks gone = kNever);
 
   struct Sight : Motion {
-    double until;  // it keeps moving like this at least to this tick
+    double since, until;  // it moves like this at least from here to here
     Ticks still;   // it stands at least to this tick
   };
   Sight at(double tick) const;
@@ -70,6 +79,7 @@ class Track {
 
   const std::vector<Body>* bodies_;
   std::vector<TimedPiece> pieces_;
+  std::vector<Rate> rates_;         // of each piece
   std::vector<Frame> frames_;       // at each piece's start, and the last one's end
   std::vector<std::int32_t> slot_;  // first piece of each slot of time
   std::vector<Circle> centres_;     // bounding circle at the start of each slot
@@ -88,7 +98,6 @@ struct Mover {
   double begin = 0.0;
   double duration = 0.0;
 
-  Motion at(double tick) const;
   // A circle that holds the body all along.
   Circle around() const;
 };
