@@ -2,6 +2,7 @@
 
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -68,6 +69,26 @@ TeamAnswer answer_of(const std::vector<Model>& models, std::vector<Agent> agents
   nb::gil_scoped_release release;
   answer.result = plan_team(models, std::move(agents), params, seed, budget, tell);
   return answer;
+}
+
+// One robot's search among others whose tours are given (an empty one: not planned, ignored), with
+// the states that it expands.
+std::pair<TourResult, std::vector<Expanded>> trace_tour(const std::vector<Model>& models,
+                                                        std::vector<Agent> agents,
+                                                        const TeamParams& params,
+                                                        const std::vector<TourResult>& tours,
+                                                        std::size_t robot) {
+  Team team(models, std::move(agents), params.search, params.objective, params.margin);
+  for (std::size_t i = 0; i < team.size() && i < tours.size(); ++i) {
+    if (i != robot && !tours[i].pieces.empty()) team.insert(i, team.place(i, tours[i]));
+  }
+  std::vector<Expanded> trace;
+  TourQuery query = team.query(robot, &team.traffic());
+  query.trace = &trace;
+  Budget budget;
+  const auto legs = static_cast<std::int64_t>(team.agent(robot).legs.size());
+  TourResult tour = team.search(query, params.search_limit * legs, budget);
+  return {std::move(tour), std::move(trace)};
 }
 
 }  // namespace
@@ -173,6 +194,13 @@ void bind_prioritised(nb::module_& m) {
                      return static_cast<double>(a.result.first_cost) / kTicksPerSecond;
                    })
       .def_ro("interrupted", &TeamAnswer::interrupted);
+  nb::class_<Expanded>(m, "Expanded", "A state that a search expanded, with its safe interval.")
+      .def_ro("pose", &Expanded::pose)
+      .def_ro("begin", &Expanded::begin)
+      .def_ro("end", &Expanded::end)
+      .def_ro("leg", &Expanded::leg);
+  m.def("trace_tour", &trace_tour, "models"_a, "agents"_a, "params"_a, "tours"_a, "robot"_a,
+        "Search one robot's tour among others' and tell the states expanded, in order.");
   m.def("plan_team", &answer_of, "models"_a, "agents"_a, "params"_a, "seed"_a, "expansions"_a = -1,
         "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
         "Plan a team, then plan it better until the budget or an interrupt ends that.");

@@ -660,6 +660,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     const Ticks end = can_wait ? meet_.safe_until(standing, at, node.t, node.hits, &met) : node.t;
     nodes_[static_cast<std::size_t>(index)].end = end;
     cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost, met});
+    if (q_.trace) q_.trace->push_back({{node.x, node.y, theta(node)}, node.t, end, node.leg});
     shoot(index);
     expand(index);
     if (spent >= next_greed_) grow_greedy();

@@ -42,6 +42,13 @@ struct SearchParams {
   std::size_t shot_words = 2;  // analytic connections tried at a time
 };
 
+// A state that a search expanded: a pose, and the safe interval in which it was reached.
+struct Expanded {
+  Pose pose;
+  Ticks begin = 0, end = 0;
+  int leg = 0;
+};
+
 struct TourQuery {
   const Model* model = nullptr;
   bool fine = false;
@@ -56,6 +63,7 @@ struct TourQuery {
                                                   // negative: it does not move away
   double weight = -1.0;  // on the heuristic; negative: that of the search
   double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
+  std::vector<Expanded>* trace = nullptr;                   // filled in the order of expansion
 };
 
 struct TourStop {
