@@ -227,16 +227,37 @@ def run_schema(arguments: argparse.Namespace) -> int:
 def run_bench(arguments: argparse.Namespace) -> int:
     """Plan a set of instances and write a row for each."""
     from clearway.study.bench import bench_warehouse
+    from clearway.study.kinodynamic import bench_kinodynamic
 
+    out, seed = Path(arguments.out), arguments.seed or 0
+    budget = Budget(arguments.budget, arguments.expansions)
+    files = [Path(file) for file in arguments.files]
+    if arguments.name == "kinodynamic" and not files:
+        raise ValueError("bench kinodynamic: no files are named; give .yaml or .toml instances")
+    if arguments.name == "warehouse" and files:
+        raise ValueError(f"bench warehouse makes its own sites; leave out {files[0]}")
+    if arguments.jobs < 1:
+        raise ValueError("--jobs: must be 1 or more, got 0")
     with ProgressLine(quiet=arguments.quiet) as line:
-        table = bench_warehouse(
-            Path(arguments.out),
-            robots=arguments.robots,
-            tasks=arguments.tasks,
-            seeds=range(arguments.seed or 0, (arguments.seed or 0) + arguments.instances),
-            budget=Budget(arguments.budget, arguments.expansions),
-            tell=line.say,
-        )
+        if arguments.name == "kinodynamic":
+            table = bench_kinodynamic(
+                files,
+                out,
+                border=arguments.border,
+                budget=budget,
+                seed=seed,
+                jobs=arguments.jobs,
+                tell=line.say,
+            )
+        else:
+            table = bench_warehouse(
+                out,
+                robots=arguments.robots,
+                tasks=arguments.tasks,
+                seeds=range(seed, seed + arguments.instances),
+                budget=budget,
+                tell=line.say,
+            )
     if arguments.json:
         _print_json(table.summary)
     else:

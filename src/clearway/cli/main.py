@@ -90,8 +90,27 @@ def _parser() -> argparse.ArgumentParser:
     bench = commands.add_parser(
         "bench", parents=[talk, search], help="a set of instances, one row each"
     )
-    bench.add_argument("name", choices=["warehouse"], help="warehouse: seeded sites of system A")
+    bench.add_argument(
+        "name",
+        choices=["warehouse", "kinodynamic"],
+        help="warehouse: seeded sites of system A; kinodynamic: one goal per robot, from FILES",
+    )
+    bench.add_argument(
+        "files",
+        nargs="*",
+        metavar="FILES",
+        help="kinodynamic: CL-CBS instances (.yaml) and scenarios of `clearway generate` (.toml)",
+    )
     bench.add_argument("--out", required=True, metavar="DIR/", help="folder for rows and plans")
+    bench.add_argument(
+        "--border",
+        choices=["closed", "open"],
+        default="closed",
+        help="kinodynamic: whether bodies stay inside the map of a CL-CBS instance",
+    )
+    bench.add_argument(
+        "--jobs", type=_count, default=1, metavar="N", help="kinodynamic: processes (default: 1)"
+    )
     bench.add_argument("--robots", type=_count, default=16)
     bench.add_argument("--tasks", type=_count, default=48)
     bench.add_argument("--instances", type=_count, default=30, help="seeds 0 to N - 1")

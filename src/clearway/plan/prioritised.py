@@ -105,6 +105,7 @@ class PrioritisedPlanner:
                 "repairs": answer.repairs,
                 "repaired": answer.repaired,
                 "first_expansions": answer.first_expansions,
+                "first_sum_of_costs_ms": round(1000.0 * answer.first_cost),
                 "interrupted": int(answer.interrupted),
             },
         )

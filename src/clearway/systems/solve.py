@@ -104,12 +104,21 @@ def make_plan(
     chosen = system or choose_system(scenario)
     seed = scenario.seed if seed is None else seed
     lap("check_s")
+
+    def told(
+        planned: int, total: int, expansions: int, sum_of_costs: float | None, bound: float | None
+    ) -> None:
+        if sum_of_costs is not None:
+            lap.once("first_plan_s")
+        if progress:
+            progress(planned, total, expansions, sum_of_costs, bound)
+
     plan = plan_once(
         scenario,
         chosen,
         budget or Budget(),
         seed,
-        progress,
+        told,
         before_planning=lambda: lap("assign_s"),
     )
     lap("plan_s")
@@ -154,3 +163,8 @@ class _Laps:
             now = self._clock()
             self.seconds[name] = round(now - self._last, 4)
             self._last = now
+
+    def once(self, name: str) -> None:
+        """Note how far the lap is, the first time only."""
+        if self._clock and name not in self.seconds:
+            self.seconds[name] = round(self._clock() - self._last, 4)
