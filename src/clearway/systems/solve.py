@@ -16,6 +16,9 @@ from clearway.validate.legality import Finding, check_scenario
 
 Clock = Callable[[], float]
 
+# Up to so many robots the closest encounter of every pair is told.
+FEW_ROBOTS = 16
+
 
 class IllegalScenario(ValueError):
     """A scenario whose own poses cannot be; ``findings`` hold all that is wrong."""
@@ -122,8 +125,11 @@ def make_plan(
         before_planning=lambda: lap("assign_s"),
     )
     lap("plan_s")
-    types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
-    cost = sum(paper_cost(path, types[id_]) for id_, path in plan.trajectories.items())
+    cost = sum(
+        paper_cost(plan.trajectories[robot.id], scenario.type_of(robot), robot.start_mode)
+        for robot in scenario.robots
+        if robot.id in plan.trajectories
+    )
     record = record_plan(
         scenario,
         plan,
@@ -143,11 +149,20 @@ def judge_plan(planned: Planned, *, clock: Clock | None = None) -> Run:
     record = planned.record
     violations = tuple(validate_plan(record))
     # Who presses Ctrl-C wants the end, not the closest encounters.
-    apart = [] if planned.interrupted else separations(record)
+    apart = [] if planned.interrupted else _closest(record)
     metrics = plan_metrics(record, apart, len(violations))
     lap("judge_s")
     record = replace(record, timings={**record.timings, **lap.seconds})
     return Run(planned.plan, record, metrics, violations)
+
+
+def _closest(record: PlanRecord) -> list[tuple[str, str, float, float]]:
+    """Return how near the robots of each pair come; of many robots, of those that come near."""
+    if len(record.robots) > FEW_ROBOTS:
+        for within in (0.5, 2.0, 8.0):
+            if apart := separations(record, within):
+                return apart
+    return separations(record)
 
 
 class _Laps:
