@@ -11,6 +11,7 @@ from clearway.model import Footprint, Point, Pose, Site
 from clearway.world.shapes import obstacle_shape
 
 MOST_CELLS = 1_000_000
+POINTS_AT_ONCE = 20_000
 # Plans may overlap obstacles by 1 mm and bounds by 2 mm and still be right.
 ALLOWED_OVERLAP = 0.002
 
@@ -125,13 +126,26 @@ def _block(
     if window.size == 0:
         return
     shapely.prepare(geometry)
-    grid_x, grid_y = np.meshgrid(xs[columns], ys[rows])
     if keep_off > 0.0:
-        window &= ~shapely.dwithin(geometry, shapely.points(grid_x, grid_y), keep_off)
+        window &= ~_within(geometry, xs[columns], ys[rows], keep_off)
     elif geometry.area:
+        grid_x, grid_y = np.meshgrid(xs[columns], ys[rows])
         deep = shapely.contains_xy(geometry, grid_x, grid_y)
-        at_rim = shapely.dwithin(geometry.boundary, shapely.points(grid_x, grid_y), -keep_off)
+        at_rim = _within(geometry.boundary, xs[columns], ys[rows], -keep_off)
         window &= ~(deep & ~at_rim)
+
+
+def _within(
+    geometry: BaseGeometry, xs: NDArray[np.float64], ys: NDArray[np.float64], distance: float
+) -> NDArray[np.bool_]:
+    """Return which grid points are that near, some rows at a time: points take much memory."""
+    shapely.prepare(geometry)
+    found = np.empty((len(ys), len(xs)), dtype=np.bool_)
+    rows = max(1, POINTS_AT_ONCE // max(1, len(xs)))
+    for first in range(0, len(ys), rows):
+        points = shapely.points(*np.meshgrid(xs, ys[first : first + rows]))
+        found[first : first + rows] = shapely.dwithin(geometry, points, distance)
+    return found
 
 
 def _inside(
@@ -140,8 +154,6 @@ def _inside(
     """Cells whose middle is at least ``keep_off`` inside, or at most minus that outside."""
     grid_x, grid_y = np.meshgrid(xs, ys)
     inside = shapely.contains_xy(bounds, grid_x, grid_y)
-    rim = bounds.exterior
-    shapely.prepare(rim)
-    at_rim = shapely.dwithin(rim, shapely.points(grid_x, grid_y), abs(keep_off))
+    at_rim = _within(bounds.exterior, xs, ys, abs(keep_off))
     near: NDArray[np.bool_] = inside & ~at_rim if keep_off > 0.0 else inside | at_rim
     return near
