@@ -183,13 +183,13 @@ inline MotionTable rover_table(int headings = 16) {
 
 enum CarMode { kAhead, kAheadLeft, kAheadRight, kBack, kBackLeft, kBackRight };
 
-// Reeds-Shepp car of turning radius 1.5 m at 1 m/s both ways.
-inline MotionTable car_table(int headings = 16) {
+// Reeds-Shepp car at 1 m/s both ways.
+inline MotionTable car_table(int headings = 16, double radius = 1.5) {
   MotionTable t;
   t.headings = headings;
   t.top_speed = 1.0;
   t.rest.assign(6, true);
-  const double step = kTau / headings, length = 1.5 * step;
+  const double step = kTau / headings, length = radius * step;
   for (const int way : {1, -1}) {
     for (const int turn : {0, 1, -1}) {
       // Backwards round a centre on the left the heading falls.
@@ -201,7 +201,7 @@ inline MotionTable car_table(int headings = 16) {
   }
   Connection how;
   how.family = Family::kReedsShepp;
-  how.radius = 1.5;
+  how.radius = radius;
   how.forward_speed = how.reverse_speed = how.forward_arc_speed = how.reverse_arc_speed = 1.0;
   how.forward = kAhead;
   how.forward_left = kAheadLeft;
