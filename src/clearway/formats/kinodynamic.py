@@ -82,10 +82,10 @@ def _content(path: Path) -> Any:
 def _scenario(top: Node, name: str, border: Border) -> Scenario:
     area, agents = top["map"], top["agents"].elements()
     width, height = (
-        _between(node, 0.0, LARGEST_SIDE, "a side of the map") for node in
-        area["dimensions"].elements(2)
+        _between(node, 0.0, LARGEST_SIDE, "a side of the map")
+        for node in area["dimensions"].elements(2)
     )
-    discs = area["obstacles"].elements() if area["obstacles"].given else []
+    discs = area["obstacles"].elements()
     if len(discs) > MOST_DISCS:
         area["obstacles"].fail_key(
             f"{len(discs):,} obstacles, more than {MOST_DISCS:,}", "split the map"

@@ -258,7 +258,7 @@ def _summary(name: str, rows: Sequence[Row]) -> Row:
 
 
 def table(sets: Sequence[Row]) -> str:
-    """Return the summaries as a Markdown table, with CL-CBS beside those that it was measured on."""
+    """Return the summaries as a Markdown table, with CL-CBS beside where it was measured."""
     heads = (
         "set",
         "legal of all",
