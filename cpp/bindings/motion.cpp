@@ -31,7 +31,8 @@ void bind_motion(nb::module_& m) {
   nb::enum_<Family>(m, "Family", "Families of analytic connections.")
       .value("REEDS_SHEPP", Family::kReedsShepp)
       .value("TURN_DRIVE_TURN", Family::kTurnDriveTurn)
-      .value("SLIDE", Family::kSlide);
+      .value("SLIDE", Family::kSlide)
+      .value("TRANSLATE", Family::kTranslate);
   nb::class_<Primitive>(m, "Primitive", "One short motion of a table.")
       .def(
           "__init__",

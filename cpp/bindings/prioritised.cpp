@@ -1,5 +1,3 @@
-#include "clearway/multi/neighbourhoods.hpp"
-
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
@@ -11,6 +9,7 @@
 #include <optional>
 
 #include "bind.hpp"
+#include "clearway/multi/neighbourhoods.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -144,7 +143,9 @@ void bind_prioritised(nb::module_& m) {
       .def_rw("tail_weight", &SearchParams::tail_weight)
       .def_rw("soft_weight", &SearchParams::soft_weight)
       .def_rw("cell", &SearchParams::cell)
-      .def_rw("shot_words", &SearchParams::shot_words);
+      .def_rw("shot_words", &SearchParams::shot_words)
+      .def_rw("most_nodes", &SearchParams::most_nodes)
+      .def_rw("most_cells", &SearchParams::most_cells);
   nb::enum_<Aim>(m, "Aim", "What the sum over robots, or the last of them, is to be least of.")
       .value("SUM_OF_COSTS", Aim::kSumOfCosts)
       .value("MAKESPAN", Aim::kMakespan);
@@ -186,9 +187,11 @@ void bind_prioritised(nb::module_& m) {
       .def_prop_ro("searches", [](const TeamAnswer& a) { return a.result.searches; })
       .def_prop_ro("rip_ups", [](const TeamAnswer& a) { return a.result.rip_ups; })
       .def_prop_ro("restarts", [](const TeamAnswer& a) { return a.result.restarts; })
+      .def_prop_ro("full", [](const TeamAnswer& a) { return a.result.full; })
       .def_prop_ro("repairs", [](const TeamAnswer& a) { return a.result.repairs; })
       .def_prop_ro("repaired", [](const TeamAnswer& a) { return a.result.repaired; })
-      .def_prop_ro("first_expansions", [](const TeamAnswer& a) { return a.result.first_expansions; })
+      .def_prop_ro("first_expansions",
+                   [](const TeamAnswer& a) { return a.result.first_expansions; })
       .def_prop_ro("first_cost",
                    [](const TeamAnswer& a) {
                      return static_cast<double>(a.result.first_cost) / kTicksPerSecond;

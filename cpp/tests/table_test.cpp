@@ -35,6 +35,15 @@ MotionTable sideways_table() {
   return t;
 }
 
+// Goes in any body direction at 2 m/s and turns at 1 rad/s.
+MotionTable floating_table(double reverse_speed) {
+  MotionTable t = rover_table();
+  t.connections[0].family = Family::kTranslate;
+  t.connections[0].forward_speed = 2.0;
+  t.connections[0].reverse_speed = reverse_speed;
+  return t;
+}
+
 }  // namespace
 
 TEST_CASE("Seconds become ticks without losing one to rounding") {
@@ -248,8 +257,64 @@ TEST_CASE("A slide turns, drives along and slips across, in either order") {
   }
 }
 
+TEST_CASE("A translation goes straight and turns before, after or on its way") {
+  const MotionTable table = floating_table(2.0);
+  std::vector<Shot> shots;
+  // 4 m to the left at 2 m/s, a quarter turn at 1 rad/s.
+  connect(table, Objective{}, {1, 1, 0}, {1, 5, kPi / 2}, 3, shots);
+  REQUIRE(shots.size() == 3);
+  REQUIRE(shots[0].steps.size() == 1);
+  // An arc of 4 m / (2 sin(pi/4)) * pi/2 = 4.443 m.
+  CHECK(shots[0].duration == 2222);
+  for (const std::size_t k : {std::size_t{1}, std::size_t{2}}) {
+    REQUIRE(shots[k].steps.size() == 2);
+    CHECK(shots[k].duration == 2000 + 1571);
+  }
+  CHECK((shots[1].steps[0].twist.c == 0.0) != (shots[2].steps[0].twist.c == 0.0));
+  scenes::Dice dice(39);
+  for (int i = 0; i < 1000; ++i) {
+    const Pose from = dice.pose(10.0), to = dice.pose(10.0);
+    connect(table, Objective{}, from, to, 6, shots);
+    REQUIRE(shots.size() == 3);
+    for (const Shot& shot : shots) {
+      check_shot(shot, from, to);
+      for (const Step& step : shot.steps) {
+        CHECK(step.twist.length() <= 2.0 * step.duration / 1000.0 + 1e-9);
+        CHECK(std::abs(step.twist.c) <= step.duration / 1000.0 + 1e-9);
+        CHECK(step.mode == (step.twist.length() > 0.0 ? kForward
+                            : step.twist.c > 0.0      ? kLeft
+                                                      : kRight));
+      }
+    }
+  }
+}
+
+TEST_CASE("Of a translation only the part that goes backwards is slowed, or forbidden") {
+  std::vector<Shot> shots;
+  // 3 m back and 4 m to the side: 0.6 of its speed goes backwards, so 0.5 / 0.6 m/s.
+  connect(floating_table(0.5), Objective{}, {0, 0, 0}, {-3, 4, 0}, 1, shots);
+  CHECK(shots[0].duration == 6000);
+  connect(floating_table(0.5), Objective{}, {0, 0, 0}, {3, 4, 0}, 1, shots);
+  CHECK(shots[0].duration == 2500);
+  scenes::Dice dice(40);
+  for (const bool by_time : {true, false}) {
+    Objective objective;
+    objective.time = by_time;
+    for (int i = 0; i < 1000; ++i) {
+      connect(floating_table(0.0), objective, dice.pose(10.0), dice.pose(10.0), 6, shots);
+      for (const Shot& shot : shots) {
+        for (const Step& step : shot.steps) CHECK(step.twist.a >= -1e-9 * step.twist.length());
+      }
+    }
+  }
+  // Straight to the side is not backwards.
+  connect(floating_table(0.0), Objective{}, {0, 0, 0}, {0, 4, 0}, 1, shots);
+  REQUIRE(!shots.empty());
+  CHECK(shots[0].duration == 2000);
+}
+
 TEST_CASE("To where it is already a robot need not drive") {
-  for (const MotionTable& table : {car_table(), rover_table()}) {
+  for (const MotionTable& table : {car_table(), rover_table(), floating_table(1.0)}) {
     std::vector<Shot> shots;
     connect(table, Objective{}, {2, 3, 1}, {2, 3, 1 + kTau}, 1, shots);
     REQUIRE(shots.size() == 1);

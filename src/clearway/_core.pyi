@@ -99,6 +99,8 @@ class Family(enum.Enum):
 
     SLIDE = 2
 
+    TRANSLATE = 3
+
 class Primitive:
     """One short motion of a table."""
 
@@ -422,6 +424,12 @@ class Agent:
     @fixed.setter
     def fixed(self, arg: bool, /) -> None: ...
 
+    @property
+    def bound(self) -> int: ...
+
+    @bound.setter
+    def bound(self, arg: int, /) -> None: ...
+
 class SearchParams:
     """Parameters of the single-robot search."""
 
@@ -432,6 +440,12 @@ class SearchParams:
 
     @weight.setter
     def weight(self, arg: float, /) -> None: ...
+
+    @property
+    def greed(self) -> float: ...
+
+    @greed.setter
+    def greed(self, arg: float, /) -> None: ...
 
     @property
     def tail_weight(self) -> float: ...
@@ -457,6 +471,25 @@ class SearchParams:
     @shot_words.setter
     def shot_words(self, arg: int, /) -> None: ...
 
+    @property
+    def most_nodes(self) -> int: ...
+
+    @most_nodes.setter
+    def most_nodes(self, arg: int, /) -> None: ...
+
+    @property
+    def most_cells(self) -> int: ...
+
+    @most_cells.setter
+    def most_cells(self, arg: int, /) -> None: ...
+
+class Aim(enum.Enum):
+    """What the sum over robots, or the last of them, is to be least of."""
+
+    SUM_OF_COSTS = 0
+
+    MAKESPAN = 1
+
 class TeamParams:
     """Parameters of prioritised planning."""
 
@@ -473,6 +506,12 @@ class TeamParams:
 
     @objective.setter
     def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def aim(self) -> Aim: ...
+
+    @aim.setter
+    def aim(self, arg: Aim, /) -> None: ...
 
     @property
     def margin(self) -> float: ...
@@ -527,6 +566,18 @@ class TeamParams:
 
     @restarts.setter
     def restarts(self, arg: int, /) -> None: ...
+
+    @property
+    def repair_limit(self) -> int: ...
+
+    @repair_limit.setter
+    def repair_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def neighbourhood(self) -> int: ...
+
+    @neighbourhood.setter
+    def neighbourhood(self, arg: int, /) -> None: ...
 
 class TourStop:
     """A visit made: its leg, ticks of arrival and leaving."""
@@ -589,9 +640,44 @@ class TeamAnswer:
     def restarts(self) -> int: ...
 
     @property
+    def full(self) -> int: ...
+
+    @property
+    def repairs(self) -> int: ...
+
+    @property
+    def repaired(self) -> int: ...
+
+    @property
+    def first_expansions(self) -> int: ...
+
+    @property
+    def first_cost(self) -> float: ...
+
+    @property
     def interrupted(self) -> bool: ...
 
-def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int], None] | None = None) -> TeamAnswer:
+class Expanded:
+    """A state that a search expanded, with its safe interval."""
+
+    @property
+    def pose(self) -> Pose: ...
+
+    @property
+    def begin(self) -> int: ...
+
+    @property
+    def end(self) -> int: ...
+
+    @property
+    def leg(self) -> int: ...
+
+def trace_tour(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, tours: Sequence[TourResult], robot: int) -> tuple[TourResult, list[Expanded]]:
     """
-    Plan a team one after another; an interrupt or the budget ends it with what there is.
+    Search one robot's tour among others' and tell the states expanded, in order.
+    """
+
+def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None) -> TeamAnswer:
+    """
+    Plan a team, then plan it better until the budget or an interrupt ends that.
     """

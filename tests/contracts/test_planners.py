@@ -11,9 +11,14 @@ from tests.plan.rooms import (
     CART,
     DRUM,
     EAST,
+    FLOAT,
     HOOK,
     NORTH,
+    PIVOT,
     SOUTH,
+    STACKER,
+    TRUCK,
+    TUG,
     WEST,
     judged,
     record,
@@ -166,6 +171,49 @@ def test_four_robots_cross_in_the_middle(solve):
     )
 
 
+def test_a_mixed_fleet_crosses_in_the_middle(solve):
+    """Unlike in size, speed, radius and ways of moving, all on one clock."""
+    solve(
+        team(
+            room(16.0, 16.0),
+            (CARRIER, (2.0, 8.0, EAST), to(14.0, 8.0)),
+            (TRUCK, (13.0, 10.5, WEST), to(3.0, 10.5, WEST)),
+            (STACKER, (8.0, 2.0, NORTH), to(8.0, 14.0, SOUTH)),
+            (TUG, (5.0, 14.0, SOUTH), to(11.0, 2.0, SOUTH)),
+            (FLOAT, (14.0, 5.0, 0.3), to(2.0, 5.0, 1.9)),
+            (PIVOT, (14.0, 14.0, WEST), to(2.0, 2.0, WEST)),
+        )
+    )
+
+
+@pytest.mark.parametrize(
+    "robot_type", [TRUCK, STACKER, PIVOT, TUG, FLOAT], ids=lambda kind: kind.name
+)
+def test_each_kind_turns_about_beside_another_one(solve, robot_type):
+    """To where it stood, facing the other way, while a cart passes by."""
+    solve(
+        team(
+            room(14.0, 10.0),
+            (robot_type, (7.0, 5.0, EAST), to(7.0, 5.0, WEST)),
+            (CART, (1.0, 2.0, EAST), to(13.0, 8.0)),
+        )
+    )
+
+
+def test_a_start_in_motion_costs_its_change_of_mode(solve):
+    """Driving ahead it goes on at once; sideways only after the 2 s that a change takes."""
+    stiff = replace(CART, mode_switch=2.0)
+    for goal, change in ((to(8.0, 2.0), 0.0), (to(2.0, 5.0), 2.0)):
+        problem = team(room(10.0, 7.0), (stiff, (2.0, 2.0, EAST), goal))
+        (robot,) = problem.robots
+        moving = replace(robot, start_speed=0.5, start_mode="forward")
+        plan = solve(replace(problem, robots=(moving,)))
+        timing = plan.trajectories["a"].timing
+        assert timing[0][0] == to_ticks(change)
+        at_rest = replace(robot, start_mode="stop")
+        assert solve(replace(problem, robots=(at_rest,))).trajectories["a"].timing[0][0] == 0
+
+
 def test_the_clearance_is_kept_where_the_poses_leave_it(solve):
     """With 0.4 m asked for and starts and goals farther apart, bodies stay 0.4 m apart."""
     shy = replace(CART, clearance=0.4)
@@ -224,6 +272,24 @@ def test_a_plan_without_effort_says_until_when_it_is_free_of_conflict(planner):
     plan = planner(problem, Budget(expansions=0), 0)
     assert plan.status is Status.STOPPED
     assert judged(problem, plan) == []
+
+
+def test_nobody_changes_its_mode_where_a_fixed_one_passes(planner, solve):
+    """It rolls ahead in a lane; a change takes 7 s, and the one behind is there after 4 s.
+
+    So it rolls on until the other one has stopped, and only then goes to the side.
+    """
+    stiff = replace(CART, name="stiff", mode_switch=7.0)
+    problem = team(
+        room(22.0, 5.0),
+        (CART, (1.0, 2.5, EAST), to(11.0, 2.5)),
+        (stiff, (6.0, 2.5, EAST), to(6.0, 4.3)),
+        fixed={"a": fixed_crossing(planner)},
+    )
+    first, second = problem.robots
+    moving = replace(second, start_speed=1.0, start_mode="forward")
+    plan = solve(replace(problem, robots=(first, moving)))
+    assert plan.trajectories["b"].pieces[0].mode == "forward"
 
 
 def committed_crossing(planner):
@@ -319,15 +385,16 @@ def test_the_same_seed_and_budget_give_the_same_plan(planner, expansions):
     assert type(planner)()(problem, budget, 7) == one
 
 
-def test_a_budget_that_is_not_reached_changes_nothing(planner):
-    """With twice the effort to spend, or any, the plan is the same."""
+def test_more_effort_never_makes_a_plan_worse(planner):
+    """The first plan is what there is without a budget; twice the effort keeps what half found."""
     problem = team(
         room(10.0, 6.0),
         (CART, (1.0, 1.0, EAST), to(9.0, 5.0)),
         (CART, (9.0, 1.0, EAST), to(1.0, 5.0)),
     )
-    plans = [planner(problem, Budget(expansions=n), 3) for n in (50_000, 100_000, None)]
-    assert plans[0] == plans[1] == plans[2]
+    plans = [planner(problem, Budget(expansions=n), 3) for n in (None, 20_000, 40_000)]
+    arrivals = [sum(path.end for path in plan.trajectories.values()) for plan in plans]
+    assert arrivals == sorted(arrivals, reverse=True)
 
 
 def test_progress_is_told_in_numbers_that_make_sense(planner):
@@ -337,7 +404,7 @@ def test_progress_is_told_in_numbers_that_make_sense(planner):
         swapping_corridor(),
         Budget(expansions=120_000),
         0,
-        lambda planned, total, spent: told.append((planned, total, spent)),
+        lambda planned, total, spent, *_: told.append((planned, total, spent)),
     )
     assert all(0 <= planned <= total == 2 for planned, total, _ in told)
     assert [spent for *_, spent in told] == sorted(spent for *_, spent in told)
@@ -351,6 +418,8 @@ def test_progress_is_told_in_numbers_that_make_sense(planner):
     [
         ({"limits": Limits(speed=1.0, acceleration=0.5, turning_radius=1.0)}, "acceleration"),
         ({"kinematics": "holonomic"}, "holonomic"),
+        ({"motion": "forklift"}, "forklift"),
+        ({"motion": "hover"}, "hover"),
     ],
 )
 def test_what_it_cannot_take_it_says_by_name(planner, change, said):
@@ -376,6 +445,7 @@ def test_visits_together_and_starts_in_motion_are_named(planner):
         problem,
         robots=(first, replace(second, start_speed=0.5)),
         tours={"a": meeting},
+        robot_types={"cart": replace(CART, limits=replace(CART.limits, acceleration=0.5))},
     )
     reasons = planner.unsupported(problem)
     assert any("robot a" in reason and "together" in reason for reason in reasons)

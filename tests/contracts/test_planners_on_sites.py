@@ -11,10 +11,14 @@ from tests.plan.rooms import (
     CART,
     DRUM,
     EAST,
+    FLOAT,
     HOOK,
     NORTH,
+    PIVOT,
     SOUTH,
+    STACKER,
     TRAIN,
+    TUG,
     WEST,
     block,
     judged,
@@ -62,7 +66,11 @@ def test_starts_may_touch_walls_and_each_other(solve):
     ],
     ids=["disc", "wall", "block", "diamond"],
 )
-@pytest.mark.parametrize("robot_type", [CART, DRUM, HOOK, CAR], ids=lambda kind: kind.name)
+@pytest.mark.parametrize(
+    "robot_type",
+    [CART, DRUM, HOOK, CAR, STACKER, PIVOT, TUG, FLOAT],
+    ids=lambda kind: kind.name,
+)
 def test_obstacles_are_gone_round(solve, robot_type, obstacle):
     """It lies across the straight line from start to goal."""
     plan = solve(team(room(10.0, 5.5, obstacle), (robot_type, (1.5, 2.0, EAST), to(8.5, 2.0))))
@@ -91,7 +99,7 @@ def test_beyond_an_open_border_there_is_room(solve):
     solve(team(site, (CART, (2.0, 2.0, EAST), to(8.0, 2.0))))
 
 
-@pytest.mark.parametrize("robot_type", [CART, CAR, DRUM], ids=lambda kind: kind.name)
+@pytest.mark.parametrize("robot_type", [CART, CAR, DRUM, TUG, FLOAT], ids=lambda kind: kind.name)
 def test_small_robots_wind_through_narrow_bends(solve, robot_type):
     """Corridors of 1.2 m, two turns about, and a body of 0.6 m x 1 m or a disc of 1 m."""
     bends = room(10.0, 6.0, block(0.0, 1.2, 8.0, 2.2), block(2.0, 3.4, 10.0, 4.4))

@@ -66,6 +66,7 @@ def full_record() -> PlanRecord:
         2,
         frozenset({"lift", "fork"}),
         Battery(3600.0, 0.3),
+        "four_wheel",
     )
     puck = RobotType("puck", Footprint(radius=0.25), "holonomic", Limits(1.0))
     start = Pose(3.0, 3.0, 0.1)

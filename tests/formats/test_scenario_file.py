@@ -52,6 +52,7 @@ footprint = [
 ]
 loaded_footprint = {disc = 2.5}
 limits = {speed = 2, reverse_speed = 0}
+motion = "forklift"
 capabilities = ["fork"]
 [[robots]]
 id = "r1"
@@ -196,6 +197,7 @@ def scenarios(draw: st.DrawFn) -> Scenario:
             capacity=draw(st.integers(1, 3)),
             capabilities=frozenset(draw(st.lists(names, max_size=2))),
             battery=draw(st.none() | st.builds(Battery, positive, st.floats(0, 0.9))),
+            motion=draw(st.sampled_from([None, "four_wheel"])),
         )
         for name in types
     }

@@ -6,7 +6,22 @@ from dataclasses import replace
 
 import shapely
 from shapely import affinity
-from tests.plan.rooms import CAR, CARRIER, CART, DRUM, HOOK, block, room, team, to
+from tests.plan.rooms import (
+    CAR,
+    CARRIER,
+    CART,
+    DRUM,
+    FLOAT,
+    HOOK,
+    PIVOT,
+    STACKER,
+    TRUCK,
+    TUG,
+    block,
+    room,
+    team,
+    to,
+)
 
 from clearway.model import Footprint, Obstacle, Pose, Problem, RobotType
 
@@ -18,7 +33,8 @@ LOADER = replace(
     limits=replace(CARRIER.limits, turning_radius=1.2),
     clearance=0.1,
 )
-TYPES = (CART, DRUM, HOOK, CAR, replace(CART, name="stiff", mode_switch=0.7), LOADER)
+STIFF = replace(CART, name="stiff", mode_switch=0.7)
+TYPES = (CART, DRUM, HOOK, CAR, STIFF, LOADER, TRUCK, STACKER, PIVOT, TUG, FLOAT)
 HEADINGS = (0.0, math.pi / 2.0, math.pi, -math.pi / 2.0)
 TRIES = 400
 

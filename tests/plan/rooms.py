@@ -65,6 +65,35 @@ CAR = replace(
         "reverse-right",
     ),
 )
+TRUCK = RobotType(
+    "truck",
+    Footprint.rectangle(2.2, 1.2, rear=0.5),
+    "ackermann",
+    Limits(speed=2.0, reverse_speed=0.8, turning_radius=2.0),
+)
+STACKER = RobotType(
+    "stacker",
+    Footprint(
+        parts=(
+            ((1.2, 0.45), (-0.2, 0.45), (-0.2, -0.45), (1.2, -0.45)),
+            ((-0.2, 0.25), (-1.0, 0.25), (-1.0, -0.25), (-0.2, -0.25)),
+        )
+    ),
+    "ackermann",
+    Limits(speed=1.4, reverse_speed=1.0, yaw_rate=0.7, turning_radius=1.2),
+    motion="forklift",
+)
+# Its rear wheel steers so far that it pivots.
+PIVOT = replace(STACKER, name="pivot", limits=replace(STACKER.limits, turning_radius=None))
+TUG = RobotType(
+    "tug", Footprint.rectangle(0.9, 0.6), "differential", Limits(speed=1.5, yaw_rate=1.2)
+)
+FLOAT = RobotType(
+    "float",
+    Footprint.rectangle(0.8, 0.8),
+    "holonomic",
+    Limits(speed=0.8, reverse_speed=0.5, yaw_rate=0.9),
+)
 TRAIN = replace(CART, name="train", modes=("stop", "forward", "reverse"))
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import pytest
 from tests.systems.sites import CARRIER, hall
 
 from clearway.model import Order, Pose, Robot, Site, Status, Task, Visit, Zone
@@ -53,6 +54,17 @@ def test_an_even_split_gives_everybody_as_many():
     )
     run = solve(hall(orders=orders, settings={"even": True}), budget=ENOUGH)
     assert [len(done) for done in run.record.assignment.values()] == [2, 2]
+
+
+@pytest.mark.parametrize(("mode", "change"), [("lateral-left", 3.0), ("stop", 0.0)])
+def test_the_cost_counts_the_change_from_the_mode_at_the_start(mode, change):
+    """3 m for what leaves another mode than that it drives off in, 0 for what stands."""
+    plain = solve(hall(), budget=ENOUGH)
+    robots = tuple(replace(robot, start_mode=mode) for robot in hall().robots)
+    run = solve(hall(robots=robots), budget=ENOUGH)
+    assert run.violations == ()
+    moving = len(run.plan.trajectories)
+    assert run.record.cost == pytest.approx(plain.record.cost + moving * change)
 
 
 def test_plans_for_the_paper_objective_are_right():

@@ -64,9 +64,8 @@ Convex::Convex(std::vector<Point> vertices) : vertices_(std::move(vertices)) {
   is_rectangle_ = std::abs(dot(u, v)) < 1e-12 * scale * scale && length(u + w) < 1e-12 * scale;
   const Point middle{0.5 * (vertices_[0].x + vertices_[2].x),
                      0.5 * (vertices_[0].y + vertices_[2].y)};
-  rectangle_ = {{middle.x, middle.y, u.x / length(u), u.y / length(u)},
-                0.5 * length(u),
-                0.5 * length(v)};
+  rectangle_ = {
+      {middle.x, middle.y, u.x / length(u), u.y / length(u)}, 0.5 * length(u), 0.5 * length(v)};
 }
 
 double Convex::gap(Point p, Point* axis) const {

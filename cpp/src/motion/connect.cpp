@@ -16,6 +16,7 @@ struct Candidate {
   Word word;                           // Reeds-Shepp; else:
   double turn0, along, across, turn1;  // turn on the spot, drive, slide, turn on the spot
   bool across_first;
+  double spread = 0.0;  // turn made evenly while translating
 };
 
 void add_turn(const Connection& how, double angle, std::vector<Step>& steps) {
@@ -67,6 +68,35 @@ double turn_cost(const MotionTable& table, const Objective& objective, const Con
 double slide_cost(const Objective& objective, const Connection& how, double length) {
   if (!objective.time) return std::abs(length);
   return std::abs(length) / how.sideways_speed * kTicksPerSecond;
+}
+
+// Speed in a body direction; 0 where it may not go there.
+double translate_speed(const Connection& how, double along, double across) {
+  const double backwards = -along / std::hypot(along, across);
+  if (backwards < 1e-9) return how.forward_speed;
+  return std::min(how.forward_speed, how.reverse_speed / backwards);
+}
+
+// Seconds of a translation that turns by `spread` on its way.
+double translate_seconds(const Connection& how, double along, double across, double spread) {
+  const double speed = translate_speed(how, along, across);
+  return std::max(std::hypot(along, across) / speed, std::abs(spread) / how.yaw_rate);
+}
+
+void add_translate(const Connection& how, double along, double across, double spread,
+                   std::vector<Step>& steps) {
+  if (std::hypot(along, across) < kNothing) return;
+  const double seconds = translate_seconds(how, along, across, spread);
+  steps.push_back({how.forward, {along, across, spread}, std::max<Ticks>(1, to_ticks(seconds))});
+}
+
+double translate_cost(const Objective& objective, const Connection& how, double along,
+                      double across, double spread) {
+  const double length = std::hypot(along, across);
+  if (length < kNothing) return 0.0;
+  if (translate_speed(how, along, across) <= 0.0) return 1e18;
+  if (!objective.time) return length * (spread != 0.0 ? objective.turning : 1.0);
+  return translate_seconds(how, along, across, spread) * kTicksPerSecond;
 }
 
 // Put the standing time between unlike modes in, and add everything up.
@@ -128,12 +158,14 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
   const Frame start(from);
   const Point local = start.to_local({to.x, to.y});
   const double turn = wrap(to.theta - from.theta);
+  const double ct = std::cos(turn), st = std::sin(turn);
   for (const Connection& how : table.connections) {
     if (how.family != Family::kReedsShepp && how.yaw_rate <= 0.0) continue;
     if (how.family == Family::kSlide && how.sideways_speed <= 0.0) continue;
     const double c = std::cos(how.direction), s = std::sin(how.direction);
     // Seen from a frame whose x axis is the direction of travel.
     const double x = c * local.x + s * local.y, y = -s * local.x + c * local.y;
+    const double distance = std::hypot(x, y);
     if (how.family == Family::kReedsShepp) {
       reeds_shepp_words(x / how.radius, y / how.radius, turn, [&](const Word& word) {
         double cost = 0.0;
@@ -143,8 +175,23 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
         }
         offer({cost, &how, word, 0.0, 0.0, 0.0, 0.0, false});
       });
+    } else if (how.family == Family::kTranslate) {
+      // The same way on the floor, seen before the turn and after it.
+      const double turning = turn_cost(table, objective, how, turn);
+      const double before = translate_cost(objective, how, local.x, local.y, 0.0);
+      offer({before + turning, &how, {}, 0.0, local.x, local.y, turn, false});
+      double along = ct * local.x + st * local.y, across = -st * local.x + ct * local.y;
+      const double after = translate_cost(objective, how, along, across, 0.0);
+      offer({turning + after, &how, {}, turn, along, across, 0.0, false});
+      if (distance > kNothing && std::abs(turn) > kNothing) {
+        // The constant twist that ends there: the logarithm of the pose.
+        const double half = 0.5 * turn, stretch = half * std::cos(half) / std::sin(half);
+        along = stretch * local.x + half * local.y;
+        across = -half * local.x + stretch * local.y;
+        const double both = translate_cost(objective, how, along, across, turn);
+        offer({both, &how, {}, 0.0, along, across, 0.0, false, turn});
+      }
     } else if (how.family == Family::kSlide) {
-      const double ct = std::cos(turn), st = std::sin(turn);
       const double along = ct * x + st * y, across = -st * x + ct * y;
       const double cost = turn_cost(table, objective, how, turn) +
                           drive_cost(objective, how, along, false) +
@@ -153,7 +200,6 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
         offer({cost, &how, {}, turn, along, across, 0.0, across_first});
       }
     } else {
-      const double distance = std::hypot(x, y);
       const double bearing = distance > kNothing ? std::atan2(y, x) : 0.0;
       for (const double way : {1.0, -1.0}) {
         const double turn0 = wrap(way > 0.0 ? bearing : bearing + std::numbers::pi);
@@ -174,6 +220,10 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
         add_drive(*pick.connection, length,
                   pick.word.length[k] * static_cast<int>(pick.word.turn[k]), shot.steps);
       }
+    } else if (pick.connection->family == Family::kTranslate) {
+      add_turn(*pick.connection, pick.turn0, shot.steps);
+      add_translate(*pick.connection, pick.along, pick.across, pick.spread, shot.steps);
+      add_turn(*pick.connection, pick.turn1, shot.steps);
     } else {
       add_turn(*pick.connection, pick.turn0, shot.steps);
       if (pick.across_first) add_slide(*pick.connection, pick.across, shot.steps);

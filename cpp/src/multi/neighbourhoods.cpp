@@ -88,8 +88,8 @@ void NeighbourhoodSearch::add_blockers(std::size_t i, std::size_t most,
     if (p.mode < 0) continue;
     const Step step{p.mode, p.twist, p.end - p.begin};
     const Drive edge{&step, 1, step.duration};
-    hits = meet.collect(bodies[static_cast<std::size_t>(p.body)], Frame(p.start), edge, p.begin,
-                        hits);
+    hits =
+        meet.collect(bodies[static_cast<std::size_t>(p.body)], Frame(p.start), edge, p.begin, hits);
   }
   const Track::Sight rest = lone_[i]->at(kNever);
   hits = meet.collect_standing(*rest.body, rest.frame, lone_[i]->settled(), kNever, hits);
@@ -105,8 +105,8 @@ void NeighbourhoodSearch::add_near(std::size_t i, std::size_t most,
                                    std::vector<std::size_t>& chosen) {
   for (int tries = 0; tries < 20 && chosen.size() < most; ++tries) {
     const Track& track = *team_.track(i);
-    const auto when = static_cast<Ticks>(random_() % static_cast<std::uint32_t>(
-                                                         std::max<Ticks>(1, track.settled())));
+    const auto when = static_cast<Ticks>(
+        random_() % static_cast<std::uint32_t>(std::max<Ticks>(1, track.settled())));
     const Frame at = track.at(when).frame;
     const auto& near = team_.traffic().near(at.x, at.y);
     if (near.empty()) continue;
@@ -137,8 +137,7 @@ bool NeighbourhoodSearch::replan(const std::vector<std::size_t>& chosen, Budget&
     TourQuery query = team_.query(i, &team_.traffic());
     query.weight = kPlainWeight;
     // Whoever costs more than this leaves the others too little.
-    const std::int64_t most =
-        params_.aim == Aim::kMakespan ? before.first + 1 : removed - promised;
+    const std::int64_t most = params_.aim == Aim::kMakespan ? before.first + 1 : removed - promised;
     query.below = params_.objective.time
                       ? static_cast<double>(most - query.ready + query.legs->back().service)
                       : static_cast<double>(most) / kTicksPerSecond;

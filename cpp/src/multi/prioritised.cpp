@@ -85,6 +85,7 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
     TourQuery q = team_.query(i, &team_.traffic());
     ++best_.searches;
     TourResult tour = team_.search(q, limit(i), budget);
+    best_.full += tour.is_full;
     if (tour.outcome != TourResult::Outcome::kFound) {
       if (budget.ended) return Attempt::kOver;
       if (!alone(i, budget)) {
@@ -95,6 +96,7 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
       q.penalty = &penalty_;
       ++best_.searches;
       tour = team_.search(q, limit(i), budget);
+      best_.full += tour.is_full;
       if (budget.ended) return Attempt::kOver;
       if (tour.outcome != TourResult::Outcome::kFound) {
         failed_ = i;
@@ -115,8 +117,8 @@ PrioritisedPlanner::Attempt PrioritisedPlanner::attempt(std::vector<std::size_t>
     tour.hits.clear();
     team_.insert(i, team_.place(i, std::move(tour)));
     if (progress_) {
-      progress_(static_cast<int>(team_.num_planned()), static_cast<int>(team_.size()),
-                budget.spent, -1);
+      progress_(static_cast<int>(team_.num_planned()), static_cast<int>(team_.size()), budget.spent,
+                -1);
     }
   }
   return Attempt::kDone;

@@ -126,8 +126,8 @@ TourQuery Team::query(std::size_t i, const Traffic* traffic) const {
 Team::Place Team::place(std::size_t i, TourResult tour) const {
   std::vector<TimedPiece> pieces = agents_[i].committed;
   pieces.insert(pieces.end(), tour.pieces.begin(), tour.pieces.end());
-  return {std::move(tour), std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
-                                                         std::move(pieces))};
+  return {std::move(tour),
+          std::make_shared<const Track>(&model(i).bodies, agents_[i].start, std::move(pieces))};
 }
 
 void Team::insert(std::size_t i, Place place) {

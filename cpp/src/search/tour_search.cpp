@@ -13,8 +13,8 @@ namespace clearway {
 namespace {
 
 constexpr double kCoarsestGoalCell = 0.5, kFinestGoalCell = 0.1;  // of goal distances (m)
-constexpr int kMostDelays = 64;  // departures tried for one motion before it is given up
-constexpr std::int64_t kFirstGreed = 128;  // expansions until a search grows greedier
+constexpr int kMostDelays = 64;            // departures tried for one motion before it is given up
+constexpr std::int64_t kFirstGreed = 256;  // expansions until a search grows greedier
 constexpr double kMostWeight = 2.5;
 constexpr double kCertain = 0.95;  // share of an estimate that is relied on
 constexpr std::int32_t kNone = -1;
@@ -29,8 +29,8 @@ struct Node {
   HitList hits;       // head of the list of tracks run into (soft search)
   std::int32_t edge;  // primitive, or num_primitives + shot
   std::int16_t leg, k, mode;
-  bool arrives;  // the edge ended at the visit of leg - 1
-  bool driven;   // the edge is known to be clear; until then its cost is a lower bound
+  bool arrives;        // the edge ended at the visit of leg - 1
+  bool driven;         // the edge is known to be clear; until then its cost is a lower bound
   std::int8_t delays;  // departures tried before
   Ticks after;  // the end of the edge is occupied then: depart once it is free again; or kNever
 };
@@ -164,7 +164,7 @@ class TourRun {
   std::vector<Shot>& shots_;
   std::vector<Shot>& tried_;
 
-  std::vector<const HeadingTable*> headings_;  // per leg, and one more after the last
+  std::vector<const HeadingTable*> headings_;   // per leg, and one more after the last
   std::vector<const GoalDistance*> distances_;  // null until a leg proves to need it
   std::vector<std::int64_t> spent_on_;          // expansions per leg
   std::vector<Frame> goal_frames_;
@@ -230,7 +230,9 @@ void TourRun::learn_distance(int leg) {
 void TourRun::grow_greedy() {
   next_greed_ *= 2;
   if (q_.below < std::numeric_limits<double>::infinity()) return;
-  weight_ = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
+  const double greedier = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
+  if (greedier == weight_) return;
+  weight_ = greedier;
   sort_anew();
 }
 
@@ -248,8 +250,8 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
   if (distances_[l]) {
     const float distance = (*distances_[l])(x, y);
     if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
-    metres = std::max(metres,
-                      static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
+    metres =
+        std::max(metres, static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
   }
   const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
@@ -310,6 +312,10 @@ bool TourRun::launch(Node& child) const {
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
   const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   const Ticks departure = child.departure, arrival = departure + edge.duration;
+  if (departure > parent.end) {  // somebody comes while it changes its mode
+    child.departure = kNever;
+    return false;
+  }
   child.hits = parent.hits;
   Ticks later = kNever;
   if (const Interval* seen = cells_.covering(child.x, child.y, child.k, child.leg, child.mode,
@@ -352,6 +358,9 @@ bool TourRun::pay(Node& child) {
   const Ticks arrival = child.departure + edge.duration;
   double penalties = 0.0;
   child.hits = meet_.collect(moving, start, edge, child.departure, parent.hits);
+  if (child.departure > parent.end) {  // while it changes its mode
+    child.hits = meet_.collect_standing(moving, start, parent.t, child.departure, child.hits);
+  }
   if (child.arrives && !last) {
     child.hits = meet_.collect_standing(moving, end, arrival, arrival + service, child.hits);
   }
@@ -383,10 +392,10 @@ void TourRun::depart(Node& child, Ticks departure) const {
   child.departure = departure;
   child.t = departure + edge_of(child.edge).duration + service;
   child.end = -1;
-  child.cost = parent.cost + child.step +
-               (s_.objective_.time ? departure - parent.t + service
-                                   : s_.objective_.waiting * (departure - parent.t) /
-                                         kTicksPerSecond);
+  child.cost =
+      parent.cost + child.step +
+      (s_.objective_.time ? departure - parent.t + service
+                          : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond);
 }
 
 void TourRun::push(const Node& child) {
@@ -468,13 +477,11 @@ bool TourRun::passable(const Node& node) const {
 
 // When the place of a node is free again. All who come to its cell ask the same.
 Ticks TourRun::next_free(const Node& node) {
-  Interval* seen =
-      node.hits == kNobody
-          ? cells_.meeting(node.x, node.y, node.k, node.leg, node.mode, node.after)
-          : nullptr;
+  Interval* seen = node.hits == kNobody
+                       ? cells_.meeting(node.x, node.y, node.k, node.leg, node.mode, node.after)
+                       : nullptr;
   if (seen && seen->free >= 0) return seen->free;
-  const Ticks free =
-      meet_.next_free(body(body_leg(node.leg)), frame(node), node.after, node.hits);
+  const Ticks free = meet_.next_free(body(body_leg(node.leg)), frame(node), node.after, node.hits);
   if (seen) seen->free = free;
   return free;
 }
@@ -651,7 +658,8 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
       if (seen->end < kNever) retry(node, seen->met);
       continue;
     }
-    if (!budget.spend() || ++spent > limit) {
+    result.is_full = static_cast<std::int64_t>(nodes_.size()) >= s_.params_.most_nodes;
+    if (result.is_full || !budget.spend() || ++spent > limit) {
       result.outcome = TourResult::Outcome::kStopped;
       return best_ == kNone || !q_.penalty ? result : extract(best_);
     }
@@ -720,6 +728,7 @@ TourResult TourRun::extract(std::int32_t goal) {
 }
 
 TourResult TourSearch::operator()(const TourQuery& query, std::int64_t limit, Budget& budget) {
+  make_room();
   TourRun run(*this, query);
   return run.run(limit, budget);
 }
@@ -735,9 +744,17 @@ const GoalDistance* TourSearch::goal_distance(const Statics& statics, double rad
   const auto found = goal_distances_.find(key);
   if (found != goal_distances_.end()) return &found->second;
   if (!make) return nullptr;
-  return &goal_distances_
-              .emplace(key, GoalDistance(statics, radius, goal.x, goal.y, goal_cell(radius)))
-              .first->second;
+  const GoalDistance& made =
+      goal_distances_.emplace(key, GoalDistance(statics, radius, goal.x, goal.y, goal_cell(radius)))
+          .first->second;
+  num_cells_ += made.num_cells();
+  return &made;
+}
+
+void TourSearch::make_room() {
+  if (num_cells_ <= params_.most_cells) return;
+  goal_distances_.clear();
+  num_cells_ = 0;
 }
 
 const HeadingTable& TourSearch::heading_table(const Model& model, bool fine, double theta) {

@@ -26,7 +26,7 @@ Circle placed(const Circle& c, const Frame& f) {
 
 constexpr double kTile = 2.5;
 constexpr double kChunk = 1.0;  // longest stretch of path marked at once (m)
-constexpr Ticks kMarch = 100;  // coarsest step when waiting for somebody to get clear
+constexpr Ticks kMarch = 100;   // coarsest step when waiting for somebody to get clear
 
 }  // namespace
 

@@ -32,14 +32,14 @@ class ProgressLine:
         planned: int,
         total: int,
         expansions: int,
-        cost: float | None,
-        lower_bound: float | None,
+        sum_of_costs: float | None = None,
+        lower_bound: float | None = None,
     ) -> None:
         """Show how many robots are planned; once all are, how good the plan is."""
-        if cost is not None:
-            told = f"improving: sum of costs {cost:,.1f} s"
+        if sum_of_costs is not None:
+            told = f"improving: sum of costs {sum_of_costs:,.1f} s"
             if lower_bound:
-                gap = 100.0 * (cost / lower_bound - 1.0)
+                gap = 100.0 * (sum_of_costs / lower_bound - 1.0)
                 told += f", lower bound {lower_bound:,.1f} s, gap {gap:.1f} %"
             self.say(f"{told}, {expansions:,} expansions")
             return

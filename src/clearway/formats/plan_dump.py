@@ -149,6 +149,7 @@ def _robot_type(kind: RobotType) -> dict[str, Any]:
         "kinematics": kind.kinematics,
         "limits": _limits(kind.limits),
     }
+    content |= _given(motion=kind.motion)
     if kind.modes:
         content["modes"] = kind.modes
     if kind.mode_switch:

@@ -88,6 +88,7 @@ def _robot_type(name: str, node: Node) -> RobotType:
     loaded, battery, modes = node["loaded_footprint"], node["battery"], node["modes"]
     skills, none = node["capabilities"], frozenset[str]()
     clearance, switch, capacity = node["clearance"], node["mode_switch"], node["capacity"]
+    motion = node["motion"]
     return built(
         node,
         lambda: RobotType(
@@ -102,6 +103,7 @@ def _robot_type(name: str, node: Node) -> RobotType:
             capacity=capacity.integer() if capacity.given else 1,
             capabilities=frozenset(c.text() for c in skills.elements()) if skills.given else none,
             battery=built(battery, lambda: _battery(battery)) if battery.given else None,
+            motion=motion.text() if motion.given else None,
         ),
     )
 

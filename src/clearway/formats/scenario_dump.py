@@ -126,6 +126,7 @@ def _robot_type(kind: RobotType) -> dict[str, Any]:
         **_given(
             loaded_footprint=_footprint(kind.loaded_footprint),
             clearance=kind.clearance,
+            motion=kind.motion,
             modes=kind.modes,
             mode_switch=kind.mode_switch,
         ),

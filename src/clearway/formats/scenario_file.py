@@ -219,6 +219,7 @@ def _robot_type(name: str, table: RobotTypeTable) -> RobotType:
         capacity=table.capacity,
         capabilities=frozenset(table.capabilities),
         battery=Battery(**table.battery.model_dump()) if table.battery else None,
+        motion=table.motion,
     )
 
 

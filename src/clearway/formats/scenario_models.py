@@ -24,6 +24,7 @@ from clearway.formats.scenario_fields import (
     WallField,
 )
 from clearway.model.robot import FOUR_WHEEL_MODES, Kinematics
+from clearway.motion import MODELS, models_for
 
 
 def _check_mode(mode: str) -> str:
@@ -177,6 +178,11 @@ class RobotTypeTable(Table):
         default=0.0, description="Gap planned for on top of the footprint (m)."
     )
     limits: LimitsTable
+    motion: str | None = Field(
+        default=None,
+        description="Name of the motion model; absent: the one for its kinematics.",
+        examples=list(MODELS),
+    )
     modes: list[Mode] = Field(
         default=[], description="Modes that may be used (four_wheel only); empty: all."
     )
@@ -196,6 +202,10 @@ class RobotTypeTable(Table):
             raise Misfit(
                 what, "remove modes or set kinematics = 'four_wheel'", self.modes, ("modes",)
             )
+        known = models_for(self.kinematics)
+        if self.motion not in (None, *known):
+            what = f"is no motion model of {self.kinematics} robots"
+            raise Misfit(what, closest(self.motion, known), self.motion, ("motion",))
         return self
 
 

@@ -10,14 +10,19 @@ from clearway.model import RobotType, Trajectory, to_seconds
 TURNING, MODE_SWITCH, WAITING = 2.0, 3.0, 0.1
 
 
-def paper_cost(trajectory: Trajectory, robot_type: RobotType) -> float:
-    """Return the cost (m) up to the trajectory's last arrival.
+STANDING = "stop"
+
+
+def paper_cost(
+    trajectory: Trajectory, robot_type: RobotType, start_mode: str | None = None
+) -> float:
+    """Return the cost (m) up to the trajectory's last arrival, of a robot that starts in a mode.
 
     Turning on the spot counts as an arc of half the body's length.
     """
     arm = robot_type.footprint.length / 2.0
     has_modes = robot_type.kinematics == "four_wheel"
-    cost, mode = 0.0, None
+    cost, mode = 0.0, None if start_mode == STANDING else start_mode
     moving = 0
     for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
         turning = piece.twist[2] != 0.0

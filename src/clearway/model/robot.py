@@ -94,6 +94,8 @@ class RobotType:
         Shape while carrying; ``None``: the same as empty.
     clearance
         Gap (m) planned for on top of the footprint wherever the scenario's own poses leave it.
+    motion
+        Name of its motion model, one of `clearway.motion.MODELS`; ``None``: the kinematics'.
     modes
         Motion modes that may be used; empty: all that the kinematics knows.
     mode_switch
@@ -113,6 +115,7 @@ class RobotType:
     capacity: int = 1
     capabilities: frozenset[str] = field(default_factory=frozenset)
     battery: Battery | None = None
+    motion: str | None = None
 
     def __post_init__(self) -> None:
         if self.kinematics not in KINEMATICS:

@@ -3,13 +3,46 @@
 from collections.abc import Callable
 
 from clearway.model import RobotType
+from clearway.model.robot import Kinematics
 from clearway.motion.car import car
+from clearway.motion.differential import differential
+from clearway.motion.forklift import forklift
 from clearway.motion.four_wheel import four_wheel
+from clearway.motion.holonomic import holonomic
 from clearway.motion.model import Curve, Mode, Motion, MotionModel
 
-MODELS: dict[str, Callable[[RobotType, int], MotionModel]] = {
-    "ackermann": car,
-    "four_wheel": four_wheel,
+# By name: the kinematics it fits, and how it is built for a type and a number of headings.
+MODELS: dict[str, tuple[Kinematics, Callable[[RobotType, int], MotionModel]]] = {
+    "car": ("ackermann", car),
+    "forklift": ("ackermann", forklift),
+    "four_wheel": ("four_wheel", four_wheel),
+    "differential": ("differential", differential),
+    "holonomic": ("holonomic", holonomic),
 }
 
-__all__ = ["MODELS", "Curve", "Mode", "Motion", "MotionModel", "car", "four_wheel"]
+
+def models_for(kinematics: Kinematics) -> tuple[str, ...]:
+    """Return the names of the models that fit, that of types which name none first."""
+    return tuple(name for name, (fits, _) in MODELS.items() if fits == kinematics)
+
+
+def model_of(robot_type: RobotType, headings: int) -> MotionModel:
+    """Return the model that the type names, or the one for its kinematics."""
+    _, build = MODELS[robot_type.motion or models_for(robot_type.kinematics)[0]]
+    return build(robot_type, headings)
+
+
+__all__ = [
+    "MODELS",
+    "Curve",
+    "Mode",
+    "Motion",
+    "MotionModel",
+    "car",
+    "differential",
+    "forklift",
+    "four_wheel",
+    "holonomic",
+    "model_of",
+    "models_for",
+]

@@ -37,9 +37,7 @@ def car(robot_type: RobotType, headings: int = 16) -> MotionModel:
             speed = min(top, yaw_rate * radius) if turn else top
             steps = turn if direction == AHEAD else -turn
             modes.append(Mode(course + side, direction, turn, speed))
-            motions.append(
-                Motion(course + side, (ahead, 0.0, steps * step), steps, length / speed)
-            )
+            motions.append(Motion(course + side, (ahead, 0.0, steps * step), steps, length / speed))
     names = [mode.name for mode in modes]
     ahead_modes = ("forward", "forward-left", "forward-right")
     back_modes = ("reverse", "reverse-left", "reverse-right")

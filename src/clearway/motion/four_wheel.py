@@ -57,7 +57,7 @@ def four_wheel(robot_type: RobotType, headings: int = 16) -> MotionModel:
     )
     motions = []
     for mode in modes:
-        if mode.direction is not None:
+        if isinstance(mode.direction, float):
             # Backwards round a centre on the left the heading falls.
             steps = mode.turn * (-1 if mode.direction == BACK else 1)
             twist = (length * math.cos(mode.direction), length * math.sin(mode.direction))

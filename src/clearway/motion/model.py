@@ -12,7 +12,8 @@ class Mode:
     Parameters
     ----------
     direction
-        Body-frame angle of travel (rad); ``None`` where the reference point stays.
+        Body-frame angle of travel (rad); ``"any"`` where each motion has its own; ``None``
+        where the reference point stays.
     turn
         Where the turn's centre lies: 1 on the body's left, -1 on its right, 0 straight.
         For a mode without travel: 1 turns counter-clockwise, -1 clockwise.
@@ -20,13 +21,32 @@ class Mode:
         Top speed of the reference point (m/s); for turning on the spot, the yaw rate (rad/s).
     rest
         Whether the robot may wait in it: only where it can be at rest at once.
+    backwards
+        Of travel in any direction, top speed of the part that goes backwards (m/s); 0 forbids
+        any. ``None``: ``speed``.
     """
 
     name: str
-    direction: float | None
+    direction: float | Literal["any"] | None
     turn: int
     speed: float
     rest: bool = True
+    backwards: float | None = None
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether anything moves in it."""
+        return self.direction is not None or self.turn != 0
+
+    @property
+    def part_backwards(self) -> float:
+        """Top speed of the part of its velocity that goes backwards (m/s)."""
+        return self.speed if self.backwards is None else self.backwards
+
+    def speed_towards(self, direction: float) -> float:
+        """Return the top speed (m/s) in a body direction, of a mode that travels in any."""
+        part = -math.cos(direction)
+        return self.speed if part < 1e-9 else min(self.speed, self.part_backwards / part)
 
 
 @dataclass(frozen=True)
@@ -49,12 +69,14 @@ class Curve:
     ``reeds_shepp`` drives arcs of ``radius`` (m) and straights along ``direction`` (body-frame
     angle: 0, or pi/2 for transverse curves); ``turn_drive_turn`` turns on the spot, drives
     straight along ``direction`` and turns again; ``slide`` turns on the spot, then drives along
-    and across the body in either order, ``sideways`` naming the modes to left and right.
+    and across the body in either order, ``sideways`` naming the modes to left and right;
+    ``translate`` drives straight in any body direction and turns on the spot before or after,
+    or turns evenly on its way.
     ``ahead`` and ``back`` name the modes for straight, left and right; ``spin`` those for
     turning left and right. A way that may not be driven is ``None``.
     """
 
-    family: Literal["reeds_shepp", "turn_drive_turn", "slide"]
+    family: Literal["reeds_shepp", "turn_drive_turn", "slide", "translate"]
     direction: float
     radius: float
     ahead: tuple[str | None, str | None, str | None]

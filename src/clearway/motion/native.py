@@ -8,6 +8,7 @@ FAMILIES = {
     "reeds_shepp": _core.Family.REEDS_SHEPP,
     "turn_drive_turn": _core.Family.TURN_DRIVE_TURN,
     "slide": _core.Family.SLIDE,
+    "translate": _core.Family.TRANSLATE,
 }
 
 
@@ -62,6 +63,8 @@ def _connection(model: MotionModel, curve: Curve, number: dict[str, int]) -> _co
         native.sideways_speed = min(top[name] for name in curve.sideways)
     native.forward_speed = straight_speed(curve.ahead[0])
     native.reverse_speed = straight_speed(curve.back[0])
+    if curve.family == "translate" and curve.ahead[0]:
+        native.reverse_speed = model.mode(curve.ahead[0]).part_backwards
     native.forward_arc_speed = arc_speed(curve.ahead[1], curve.ahead[2])
     native.reverse_arc_speed = arc_speed(curve.back[1], curve.back[2])
     return native

@@ -1,5 +1,5 @@
 """Planners: how a team moves through its tours."""
 
-from clearway.plan.prioritised import PrioritisedPlanner, TeamParams
+from clearway.plan.prioritised import Aim, PrioritisedPlanner, TeamParams
 
-__all__ = ["PrioritisedPlanner", "TeamParams"]
+__all__ = ["Aim", "PrioritisedPlanner", "TeamParams"]

@@ -18,13 +18,13 @@ class Bounds:
 
     @property
     def seconds(self) -> float:
-        """Bound on the sum of costs (s)."""
-        return math.fsum(self.arrival.values())
+        """Bound on the sum of costs (s), rounded down."""
+        return math.floor(1e6 * math.fsum(self.arrival.values())) / 1e6
 
     @property
     def metres(self) -> float:
-        """Bound on the length that all drive (m)."""
-        return math.fsum(self.length.values())
+        """Bound on the length that all drive (m), rounded down."""
+        return math.floor(1e6 * math.fsum(self.length.values())) / 1e6
 
 
 def curve_bound(robot_type: RobotType, start: Pose, goal: Pose) -> float:

@@ -15,7 +15,7 @@ from clearway.model import (
     to_ticks,
     wrap,
 )
-from clearway.motion import MODELS, MotionModel
+from clearway.motion import MotionModel, model_of
 from clearway.motion.native import native_table
 from clearway.plan.bounds import Bounds
 from clearway.world.obstacles import native_body, native_obstacles
@@ -38,8 +38,7 @@ class NativeTeam:
         self.agents = [self._agent(i) for i in range(len(problem.robots))]
 
     def _model(self, robot_type: RobotType, reach: float) -> _core.Model:
-        build = MODELS[robot_type.kinematics]
-        self.motion[robot_type.name] = build(robot_type, COARSE_HEADINGS)
+        self.motion[robot_type.name] = model_of(robot_type, COARSE_HEADINGS)
         site = self.problem.site
         changes = robot_type.loaded_footprint is not None or any(o.blocks for o in site.obstacles)
         states = (False, True) if changes else (False,)
@@ -51,7 +50,7 @@ class NativeTeam:
             [native_body(robot_type.shape(loaded)) for loaded in states],
             statics,
             native_table(self.motion[robot_type.name]),
-            native_table(build(robot_type, FINE_HEADINGS)),
+            native_table(model_of(robot_type, FINE_HEADINGS)),
             robot_type.clearance,
         )
 
@@ -68,7 +67,7 @@ class NativeTeam:
         prefix = fixed or state.committed
         start = prefix.start if prefix else state.pose
         agent.start = _core.Pose(*start)
-        agent.mode = -1
+        agent.mode = self._moving_mode(robot.type, state.mode)
         agent.ready = state.tick
         agent.bound = int(self.bounds.arrival[robot.id] * TICKS_PER_SECOND)
         agent.fixed = fixed is not None
@@ -83,6 +82,13 @@ class NativeTeam:
         agent.legs = [] if fixed else legs
         agent.rest_body = self._body(robot.type, loads)
         return agent
+
+    def _moving_mode(self, type_name: str, mode: str | None) -> int:
+        """Return the number of a mode; -1 for standing, from which no change of mode is due."""
+        for i, known in enumerate(self.motion[type_name].modes):
+            if known.name == mode and known.is_moving:
+                return i
+        return -1
 
     def _timed(self, trajectory: Trajectory, type_name: str) -> list[_core.TimedPiece]:
         numbers = {mode.name: i for i, mode in enumerate(self.motion[type_name].modes)}

@@ -4,11 +4,12 @@ from collections.abc import Callable
 
 from clearway import _core
 from clearway.model import LOAD_CHANGE, Plan, Problem, Status, to_seconds
-from clearway.motion import MODELS
+from clearway.motion import models_for
 from clearway.plan.bounds import lower_bounds
 from clearway.plan.native_team import NativeTeam
 from clearway.protocols import Budget, Progress
 
+Aim = _core.Aim
 TeamParams = _core.TeamParams
 
 
@@ -34,18 +35,23 @@ class PrioritisedPlanner:
         reasons = []
         for name in {robot.type for robot in problem.robots}:
             robot_type = problem.robot_types[name]
-            if robot_type.kinematics not in MODELS:
+            known = models_for(robot_type.kinematics)
+            if robot_type.motion not in (None, *known):
                 reasons.append(
-                    f"robot type {name}: no motion model for {robot_type.kinematics} robots; "
-                    f"known: {', '.join(MODELS)}"
+                    f"robot type {name}: {robot_type.motion} is no motion model of "
+                    f"{robot_type.kinematics} robots; known: {', '.join(known)}"
                 )
             if robot_type.limits.acceleration or robot_type.limits.deceleration:
                 reasons.append(
                     f"robot type {name}: acceleration limits are not planned for; remove them"
                 )
         for robot in problem.robots:
-            if robot.start_speed:
-                reasons.append(f"robot {robot.id}: a start in motion is not planned for")
+            limits = problem.robot_types[robot.type].limits
+            if robot.start_speed and (limits.acceleration or limits.deceleration):
+                reasons.append(
+                    f"robot {robot.id}: a start in motion is not planned for where acceleration "
+                    "is limited"
+                )
             for visit in problem.tours.get(robot.id, ()):
                 if visit.together:
                     reasons.append(
@@ -84,7 +90,7 @@ class PrioritisedPlanner:
                 trajectories[robot.id] = committed
         trajectories.update(problem.fixed)
         concerned = team.ids(answer.concerned)
-        status, reason = _verdict(problem, answer, concerned, self.params.restarts)
+        status, reason = _verdict(problem, answer, concerned, self.params)
         return Plan(
             status=status,
             reason=reason,
@@ -149,7 +155,7 @@ def _walled_in(problem: Problem, robot_id: str) -> bool:
 
 
 def _verdict(
-    problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...], restarts: int
+    problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...], params: TeamParams
 ) -> tuple[Status, str | None]:
     names = ", ".join(concerned)
     if answer.status == _core.TeamStatus.SOLVED:
@@ -166,6 +172,15 @@ def _verdict(
             f"no plan on this lattice for {names}, alone on the site and with 32 headings; "
             "widen the passage or move the goal"
         )
-    if answer.restarts > restarts:
-        return Status.STOPPED, f"no plan in {restarts} restarts; not planned: {names}"
+    if answer.restarts > params.restarts:
+        memory = (
+            f" ({answer.full} searches stopped at their limit of "
+            f"{params.search.most_nodes:,} states in memory)"
+            if answer.full
+            else ""
+        )
+        return (
+            Status.STOPPED,
+            f"no plan in {params.restarts} restarts{memory}; not planned: {names}",
+        )
     return Status.STOPPED, f"the budget ended; not planned: {names}"

@@ -1,14 +1,26 @@
 """The joint between a planning problem and the algorithms that solve it."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
 from clearway.model import Plan, Problem
 
-Progress = Callable[[int, int, int, float | None, float | None], None]
-"""Called now and then with robots planned, robots in all, expansions so far; sum of costs (s) of
-the best complete plan, ``None`` before there is one, and its lower bound, ``None`` if unknown."""
+
+class Progress(Protocol):
+    """Called now and then while planning."""
+
+    def __call__(
+        self,
+        planned: int,
+        total: int,
+        expansions: int,
+        sum_of_costs: float | None = None,
+        lower_bound: float | None = None,
+    ) -> None:
+        """Tell robots planned, robots in all and the expansions so far.
+
+        Once all are planned, ``sum_of_costs`` (s) is that of the best plan so far.
+        """
 
 
 @dataclass(frozen=True)

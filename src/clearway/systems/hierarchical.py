@@ -13,7 +13,7 @@ from clearway.assign import InsertionLocalSearch, RandomAssigner, park
 from clearway.assign.insertion import InsertionParams
 from clearway.coordinate import System
 from clearway.model import Scenario, Visit
-from clearway.plan import PrioritisedPlanner, TeamParams
+from clearway.plan import Aim, PrioritisedPlanner, TeamParams
 from clearway.protocols import Assigner, Weights
 from clearway.systems.settings import SettingsError
 
@@ -33,7 +33,8 @@ class HierarchicalSettings:
     park
         Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
     objective
-        What the motion search minimises: ``time``, or the ``paper`` cost (eq. 21).
+        What planning minimises: ``time`` (sum of costs), ``makespan`` (the last arrival, then
+        the sum), or the ``paper`` cost (eq. 21).
     weight
         Factor on the heuristic; larger plans faster and drives longer.
     """
@@ -44,7 +45,7 @@ class HierarchicalSettings:
     total_distance: float = 1.0
     turning: float = 1.0
     park: Literal["blocking", "always", "never"] = "blocking"
-    objective: Literal["time", "paper"] = "time"
+    objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
 
     def __post_init__(self) -> None:
@@ -60,8 +61,9 @@ def hierarchical(settings: HierarchicalSettings) -> System:
     params = TeamParams()
     search, objective = params.search, params.objective
     search.weight = settings.weight
-    objective.time = settings.objective == "time"
+    objective.time = settings.objective != "paper"
     params.search, params.objective = search, objective
+    params.aim = Aim.MAKESPAN if settings.objective == "makespan" else Aim.SUM_OF_COSTS
 
     def own_tasks(
         scenario: Scenario, tours: Mapping[str, tuple[Visit, ...]]

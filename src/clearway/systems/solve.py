@@ -109,12 +109,16 @@ def make_plan(
     lap("check_s")
 
     def told(
-        planned: int, total: int, expansions: int, sum_of_costs: float | None, bound: float | None
+        planned: int,
+        total: int,
+        expansions: int,
+        sum_of_costs: float | None = None,
+        lower_bound: float | None = None,
     ) -> None:
         if sum_of_costs is not None:
             lap.once("first_plan_s")
         if progress:
-            progress(planned, total, expansions, sum_of_costs, bound)
+            progress(planned, total, expansions, sum_of_costs, lower_bound)
 
     plan = plan_once(
         scenario,

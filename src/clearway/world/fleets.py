@@ -29,6 +29,7 @@ FORKLIFT = RobotType(
     ),
     kinematics="ackermann",
     limits=Limits(speed=1.5, reverse_speed=1.0, turning_radius=1.8),
+    motion="forklift",
 )
 SHUTTLE = RobotType(
     name="shuttle",

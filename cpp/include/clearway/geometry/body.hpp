@@ -108,8 +108,8 @@ void for_each_separation(const Body& a, const Frame& fa, const Body& b, const Fr
   const std::size_t num_a = a.parts().size(), num_b = b.parts().size();
   for (std::size_t i = 0; i < std::max<std::size_t>(1, num_a); ++i) {
     for (std::size_t j = 0; j < std::max<std::size_t>(1, num_b); ++j) {
-      visit(separation(a, num_a ? &a.parts()[i] : nullptr, fa, b,
-                       num_b ? &b.parts()[j] : nullptr, fb, enough));
+      visit(separation(a, num_a ? &a.parts()[i] : nullptr, fa, b, num_b ? &b.parts()[j] : nullptr,
+                       fb, enough));
     }
   }
 }

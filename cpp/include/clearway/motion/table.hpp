@@ -26,7 +26,7 @@ struct Primitive {
   std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits
 };
 
-enum class Family { kReedsShepp, kTurnDriveTurn, kSlide };
+enum class Family { kReedsShepp, kTurnDriveTurn, kSlide, kTranslate };
 
 // How one family of analytic curves is driven: body direction, speeds (m/s, rad/s), modes.
 struct Connection {
@@ -41,6 +41,8 @@ struct Connection {
   int rotate_left = -1, rotate_right = -1;
   double sideways_speed = 0.0;  // slide: across the body
   int left = -1, right = -1;
+  // Translate: in mode `forward` in any body direction, turning before, after or on the way;
+  // `reverse_speed` bounds the part of the velocity that goes backwards, 0 forbids any.
 };
 
 // Weights of the objective: cost = time_weight * seconds moving + length * (1 or turning) + ...

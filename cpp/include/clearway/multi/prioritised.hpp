@@ -41,6 +41,7 @@ struct TeamResult {
   std::int64_t first_cost = 0;        // its sum of arrivals (ticks)
   int searches = 0, rip_ups = 0, restarts = 0;
   int repairs = 0, repaired = 0;  // neighbourhoods planned anew, and kept
+  int full = 0;                   // searches that stopped since they would have kept too much
 };
 
 // Robots planned, robots in all, expansions, and the sum of arrivals of a complete plan (ticks;

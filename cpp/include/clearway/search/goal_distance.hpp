@@ -1,6 +1,7 @@
 // Obstacle-aware distance to a goal: Dijkstra once per goal, shared by all who go there.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "clearway/space/statics.hpp"
@@ -20,6 +21,8 @@ class GoalDistance {
     return distance_[static_cast<std::size_t>(fy) * static_cast<std::size_t>(width_) +
                      static_cast<std::size_t>(fx)];
   }
+
+  std::int64_t num_cells() const { return static_cast<std::int64_t>(distance_.size()); }
 
   static constexpr float kUnreachable = 1e30F;
 

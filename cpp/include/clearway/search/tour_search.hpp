@@ -40,6 +40,8 @@ struct SearchParams {
   double soft_weight = 2.0;    // likewise in soft search
   double cell = 0.85;          // poses in one cell compete; in shortest steps of the table
   std::size_t shot_words = 2;  // analytic connections tried at a time
+  std::int64_t most_nodes = 2'000'000;   // kept by one search, 96 bytes each; then it stops
+  std::int64_t most_cells = 16'000'000;  // of goal distances kept, 4 bytes each
 };
 
 // A state that a search expanded: a pose, and the safe interval in which it was reached.
@@ -61,9 +63,9 @@ struct TourQuery {
   const std::vector<double>* required = nullptr;  // gap to each track
   const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;
                                                   // negative: it does not move away
-  double weight = -1.0;  // on the heuristic; negative: that of the search
+  double weight = -1.0;                           // on the heuristic; negative: that of the search
   double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
-  std::vector<Expanded>* trace = nullptr;                   // filled in the order of expansion
+  std::vector<Expanded>* trace = nullptr;                  // filled in the order of expansion
 };
 
 struct TourStop {
@@ -78,7 +80,8 @@ struct TourResult {
   std::vector<TourStop> stops;
   std::vector<int> hits;  // tracks that a soft path runs into
   Ticks arrival = 0;
-  double cost = 0.0;  // of the objective
+  double cost = 0.0;     // of the objective
+  bool is_full = false;  // stopped since it would have kept more than `most_nodes`
 };
 
 struct TourMemory;
@@ -104,7 +107,11 @@ class TourSearch {
   SearchParams params_;
   Objective objective_;
   std::unique_ptr<TourMemory> memory_;
+  // Forget goal distances where they take too much room; no query may be under way.
+  void make_room();
+
   std::map<std::tuple<const Statics*, double, double, double>, GoalDistance> goal_distances_;
+  std::int64_t num_cells_ = 0;  // of all goal distances
   std::map<std::tuple<const Model*, bool, long>, HeadingTable> heading_tables_;
   std::map<std::tuple<const Model*, bool>, ConnectTable> connect_tables_;
 };

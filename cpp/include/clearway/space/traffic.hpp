@@ -51,7 +51,7 @@ class Track {
 
   struct Sight : Motion {
     double since, until;  // it moves like this at least from here to here
-    Ticks still;   // it stands at least to this tick
+    Ticks still;          // it stands at least to this tick
   };
   Sight at(double tick) const;
   // First tick within [from, to] at which its bounding circle may come within `apart` of a point;
@@ -62,7 +62,7 @@ class Track {
   // From here on nothing about it changes any more.
   Ticks settled() const { return pieces_.empty() ? 0 : pieces_.back().end; }
   Ticks gone() const { return gone_; }
-  double speed() const { return speed_; }  // of its fastest body point, m per tick
+  double speed() const { return speed_; }                // of its fastest body point, m per tick
   double centre_speed() const { return centre_speed_; }  // of its bounding circle's centre
   double circumradius() const { return circumradius_; }
   // A circle that holds the body during [begin, end], without trigonometry.
