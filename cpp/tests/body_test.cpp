@@ -185,3 +185,112 @@ TEST_CASE("More corners than a body may have are refused") {
   corners.pop_back();
   CHECK(Body({corners}, 0.0).parts()[0].vertices().size() == 64);
 }
+
+TEST_CASE("A rectangle is known as one however it lies, and nothing else is") {
+  const auto known = [](std::vector<Point> points) {
+    return Convex(std::move(points)).rectangle() != nullptr;
+  };
+  CHECK(known(scenes::box_points(-0.3, -0.4, 1.9, 0.5)));
+  CHECK(known({{1, 0}, {3, 1}, {2, 3}, {0, 2}}));
+  CHECK(!known({{-1, -1}, {0, -1}, {1, -1}, {1, 1}, {-1, 1}}));  // a corner in a straight side
+  CHECK(!known({{0, 0}, {2, 0}, {3, 1}, {1, 1}}));
+  CHECK(!known({{0, 0}, {2, 0}, {1.5, 1}, {0.5, 1}}));
+  CHECK(!known({{0, 0}, {2, 0}, {1, 1}}));
+  const Convex turned({{1, 0}, {3, 1}, {2, 3}, {0, 2}});
+  const Rectangle& box = *turned.rectangle();
+  CHECK(box.centre.x == doctest::Approx(1.5));
+  CHECK(box.centre.y == doctest::Approx(1.5));
+  CHECK(box.along == doctest::Approx(std::sqrt(5.0) / 2));
+  CHECK(box.across == doctest::Approx(std::sqrt(5.0) / 2));
+}
+
+TEST_CASE("Rectangles have the gap that they have as any other polygon") {
+  scenes::Dice dice(15);
+  int overlapping = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::vector<Body> boxes, polygons;
+    for (int k = 0; k < 2; ++k) {
+      // Off the reference point and turned, and once more with a corner amid its first side.
+      const double x = dice.between(-1, 1), y = dice.between(-1, 1);
+      auto points = scenes::placed(
+          scenes::box_points(x, y, x + dice.between(0.1, 2), y + dice.between(0.1, 2)),
+          at(0, 0, dice.between(-kPi, kPi)));
+      boxes.push_back(Body({points}, 0.0));
+      points.insert(points.begin() + 1,
+                    {(points[0].x + points[1].x) / 2, (points[0].y + points[1].y) / 2});
+      polygons.push_back(Body({points}, 0.0));
+    }
+    REQUIRE(boxes[0].parts()[0].rectangle());
+    REQUIRE(!polygons[0].parts()[0].rectangle());
+    const Frame fa(dice.pose(3.0)), fb(dice.pose(3.0));
+    const double found = gap(boxes[0], fa, boxes[1], fb, kFar);
+    CHECK(std::abs(found - gap(polygons[0], fa, polygons[1], fb, kFar)) < 1e-9);
+    CHECK(std::abs(found - gap(boxes[0], fa, polygons[1], fb, kFar)) < 1e-9);
+    const double truth = scenes::true_gap(boxes[0], fa, boxes[1], fb);
+    overlapping += truth < 0.0;
+    CHECK((truth < 0.0 ? std::abs(found - truth) < 1e-9 : found <= truth + 1e-9 && found >= -1e-9));
+  }
+  CHECK(overlapping > 500);
+}
+
+TEST_CASE("Along the axis of a separation the two are as far apart as is told") {
+  scenes::Dice dice(16);
+  const std::vector<Body> bodies{scenes::rectangle(2.2, 0.9), scenes::rectangle(0.5, 1.7),
+                                 scenes::kite(5, 0.8, 0.4), scenes::disc(0.6), scenes::disc(0.3)};
+  // How far a body reaches along a direction.
+  const auto reach = [](const Body& body, const Frame& f, Point axis) {
+    double most = body.parts().empty() ? dot(axis, {f.x, f.y}) + body.disc() : -1e300;
+    for (const Convex& part : body.parts()) {
+      for (const Point& p : scenes::placed(part.vertices(), f)) most = std::max(most, dot(axis, p));
+    }
+    return most;
+  };
+  for (int i = 0; i < 4000; ++i) {
+    const Body& a = bodies[static_cast<std::size_t>(dice.below(5))];
+    const Body& b = bodies[static_cast<std::size_t>(dice.below(5))];
+    const Frame fa(dice.pose(4.0)), fb(dice.pose(4.0));
+    for_each_separation(a, fa, b, fb, i % 2 ? kFar : 0.3, [&](const Separation& s) {
+      CHECK(length(s.axis) == doctest::Approx(1.0));
+      const Point back{-s.axis.x, -s.axis.y};
+      CHECK(std::abs(-reach(b, fb, back) - reach(a, fa, s.axis) - s.gap) < 1e-9);
+    });
+  }
+}
+
+TEST_CASE("Each pair of parts is told of once") {
+  const Body lift = scenes::forklift(), box = scenes::rectangle(0.3, 0.3);
+  int pairs = 0;
+  double least = kFar;
+  for_each_separation(lift, at(0, 0), lift, at(4, 1, 2.0), kFar, [&](const Separation& s) {
+    ++pairs;
+    least = std::min(least, s.gap);
+  });
+  CHECK(pairs == 9);
+  CHECK(least == gap(lift, at(0, 0), lift, at(4, 1, 2.0), kFar));
+  for_each_separation(lift, at(0, 0), box, at(3, 0), kFar, [&](const Separation&) { ++pairs; });
+  CHECK(pairs == 12);
+}
+
+TEST_CASE("The bounding circle holds all corners and lies where the body does") {
+  for (const Body& body :
+       {scenes::rectangle(6.0, 1.0), scenes::forklift(), scenes::kite(3, 1.0, 0.5),
+        scenes::kite(12, 1.0, -2.0), Body({scenes::box_points(-0.3, -0.4, 1.9, 0.5)}, 0.0)}) {
+    const Circle& bound = body.bound();
+    for (const Convex& part : body.parts()) {
+      for (const Point& p : part.vertices()) {
+        CHECK(std::hypot(p.x - bound.x, p.y - bound.y) <= bound.r + 1e-12);
+      }
+    }
+  }
+  // From the forks' ends at -1.7 to the front at 0.5, 1 m wide: about (-0.6, 0).
+  const Circle lift = scenes::forklift().bound();
+  CHECK(lift.x == doctest::Approx(-0.6));
+  CHECK(lift.y == doctest::Approx(0.0));
+  CHECK(lift.r == doctest::Approx(std::hypot(1.1, 0.5)));
+  const Circle box = Body({scenes::box_points(-0.3, -0.4, 1.9, 0.5)}, 0.0).bound();
+  CHECK(box.x == doctest::Approx(0.8));
+  CHECK(box.y == doctest::Approx(0.05));
+  CHECK(box.r == doctest::Approx(std::hypot(1.1, 0.45)));
+  const Circle disc = scenes::disc(0.7).bound();
+  CHECK(disc.r == 0.7);
+}

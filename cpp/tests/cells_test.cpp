@@ -88,3 +88,42 @@ TEST_CASE("A place keeps all its intervals") {
     CHECK((cells.covering(0, 0, 0, 0, 0, t, t, 0) != nullptr) == (t % 100 <= 50));
   }
 }
+
+TEST_CASE("After a reset nothing is known any more, however often that happens") {
+  Cells cells;
+  for (int round = 0; round < 50; ++round) {
+    cells.reset(0.5, 1.0);
+    cells.distinguish_modes(round % 2);
+    for (int i = 0; i < 40; ++i) CHECK(!cells.covering(0.5 * i, 2, 0, 0, 0, 500, 1e9, 0));
+    // In one round the table grows.
+    for (int i = 0; i < (round == 7 ? 9000 : 20); ++i) {
+      cells.add(0.5 * i, 2, 0, 0, 0, {0, kNever, 0.0, 900});
+    }
+    CHECK(cells.covering(0, 2, 0, 0, 0, 500, 500.0, 0));
+    CHECK(cells.meeting(0, 2, 0, 0, 0, 900));
+  }
+  cells.reset(0.5, 1.0);
+  CHECK(!cells.meeting(0, 2, 0, 0, 0, 900));
+  CHECK(!cells.covering(0, 2, 0, 0, 5, 500, 1e9, 0));
+  // Modes share a place again, until they are told apart.
+  cells.add(0, 2, 0, 0, 1, {0, kNever, 0.0});
+  CHECK(cells.covering(0, 2, 0, 0, 5, 500, 500.0, 0));
+}
+
+TEST_CASE("The interval at whose end somebody is met is found by that tick and can be written to") {
+  Cells cells;
+  cells.reset(1.0, 1.0);
+  cells.add(0.5, 0.5, 3, 1, 0, {0, 999, 0.0, 1000});
+  cells.add(0.5, 0.5, 3, 1, 0, {2000, 3000, 9.0, 3040});
+  cells.add(1.5, 0.5, 3, 1, 0, {0, 500, 0.0, 501});
+  REQUIRE(cells.meeting(0.7, 0.2, 3, 1, 0, 1000));
+  CHECK(cells.meeting(0.7, 0.2, 3, 1, 0, 1000)->end == 999);
+  CHECK(cells.meeting(0.7, 0.2, 3, 1, 0, 3040)->begin == 2000);
+  CHECK(!cells.meeting(0.7, 0.2, 3, 1, 0, 999));
+  CHECK(!cells.meeting(0.7, 0.2, 3, 1, 0, 501));
+  CHECK(!cells.meeting(0.7, 0.2, 2, 1, 0, 1000));
+  CHECK(!cells.meeting(0.7, 0.2, 3, 0, 0, 1000));
+  cells.meeting(0.7, 0.2, 3, 1, 0, 1000)->free = 1800;
+  CHECK(cells.meeting(0.5, 0.5, 3, 1, 0, 1000)->free == 1800);
+  CHECK(cells.meeting(0.5, 0.5, 3, 1, 0, 3040)->free < 0);
+}

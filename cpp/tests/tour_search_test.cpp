@@ -23,6 +23,8 @@ struct Errand {
   Ticks ready = 0;
   int rest_body = 0;
   std::int64_t limit = 20000;
+  double below = std::numeric_limits<double>::infinity();
+  std::vector<Expanded> trace;
   Budget budget;
 
   TourResult run() {
@@ -38,6 +40,9 @@ struct Errand {
     query.traffic = others.empty() ? nullptr : &traffic;
     query.required = &required;
     query.penalty = penalty.empty() ? nullptr : &penalty;
+    query.below = below;
+    query.trace = &trace;
+    trace.clear();
     TourSearch search(params, objective);
     return search(query, limit, budget);
   }
@@ -472,4 +477,135 @@ TEST_CASE("Through random traffic whatever way is found keeps off everybody") {
     check_apart(e, tour);
   }
   CHECK(found >= 8);
+}
+
+namespace {
+
+// Round a block, and to be sought with care.
+Errand detour() {
+  Obstacles o = hall(20, 12);
+  add_solid(o, box_points(9, 0, 10, 10));
+  Errand e = errand(rectangle(1.0, 0.6), o, {4, 3, 0}, {{{15, 3, 2.0}, 1500, 0, 0.0}});
+  e.params.weight = e.params.tail_weight = 1.0;
+  e.params.greed = 0.0;
+  e.limit = 200000;
+  return e;
+}
+
+}  // namespace
+
+TEST_CASE("A search that would keep too much stops and says so") {
+  Errand e = detour();
+  const TourResult whole = e.run();
+  check_tour(e, whole);
+  CHECK(!whole.is_full);
+  e.params.most_nodes = 60;
+  const TourResult full = e.run();
+  CHECK(full.outcome == Outcome::kStopped);
+  CHECK(full.is_full);
+  CHECK(full.pieces.empty());
+  e.params.most_nodes = 2'000'000;
+  e.limit = 3;
+  const TourResult brief = e.run();
+  CHECK(brief.outcome == Outcome::kStopped);
+  CHECK(!brief.is_full);
+}
+
+TEST_CASE("A search that may keep no distances answers every time as if it were new") {
+  Errand e = detour();
+  e.params.most_cells = 1;
+  TourSearch forgetful(e.params, e.objective);
+  Dice dice(103);
+  for (int i = 0; i < 12; ++i) {
+    e.legs[0].goal = {dice.between(11, 18), dice.between(2, 10), dice.between(-kPi, kPi)};
+    TourQuery query;
+    query.model = &e.model;
+    query.start = e.start;
+    query.legs = &e.legs;
+    const TourResult fresh = e.run();
+    check_tour(e, fresh);
+    for (int again = 0; again < 2; ++again) {
+      Budget budget;
+      CHECK(same(forgetful(query, e.limit, budget), fresh));
+      CHECK(budget.spent == static_cast<std::int64_t>(e.trace.size()));
+    }
+  }
+}
+
+TEST_CASE("Below the cost of the best way nothing is found, above it the same way is") {
+  // 15 m at 1 m/s, and 2 s of service: 17,000 ticks from when it is ready.
+  Errand straight = errand(rectangle(1.0, 0.6), hall(20, 6), {2, 3, 0}, {{{17, 3, 0}, 2000, 0, 0}});
+  straight.ready = 3000;
+  straight.params.weight = 1.0;
+  straight.limit = 5000;
+  const TourResult best = straight.run();
+  check_tour(straight, best);
+  CHECK(best.cost == 17000.0);
+  straight.below = 17000.0;
+  CHECK(straight.run().outcome != Outcome::kFound);
+  straight.below = 17001.0;
+  CHECK(same(straight.run(), best));
+  Errand round = detour();
+  const TourResult found = round.run();
+  check_tour(round, found);
+  const auto effort = round.trace.size();
+  round.below = found.cost + 1.0;
+  CHECK(same(round.run(), found));
+  CHECK(round.trace.size() <= effort);
+  round.below = found.cost;
+  CHECK(round.run().outcome == Outcome::kExhausted);
+  round.below = 0.7 * found.cost;
+  CHECK(round.run().outcome == Outcome::kExhausted);
+  CHECK(round.trace.size() < effort);
+}
+
+TEST_CASE("A trace tells of each state once, the start first, with the time it is safe there") {
+  Errand e = errand(rectangle(1.0, 0.6), hall(20, 12), {2, 6, 0.3},
+                    {{{10, 6, 0}, 3000, 0, 0.0}, {{17, 6, 1.0}, 0, 0, 0.0}});
+  e.ready = 1000;
+  // One drives over where it starts, another crosses its way.
+  e.others = {track({2, 1, kPi / 2}, {drive(0, 10000, {2, 1, kPi / 2}, {10, 0, 0})}),
+              track({14, 11, -kPi / 2}, {drive(0, 10000, {14, 11, -kPi / 2}, {10, 0, 0})})};
+  const TourResult tour = e.run();
+  check_tour(e, tour);
+  check_apart(e, tour);
+  REQUIRE(!e.trace.empty());
+  CHECK(static_cast<std::int64_t>(e.trace.size()) == e.budget.spent);
+  const Expanded& first = e.trace.front();
+  CHECK(first.pose.x == 2.0);
+  CHECK(first.pose.y == 6.0);
+  CHECK(first.pose.theta == doctest::Approx(0.3));
+  CHECK(first.begin == 1000);
+  CHECK(first.leg == 0);
+  int limited = 0;
+  for (const Expanded& state : e.trace) {
+    CHECK(state.begin <= state.end);
+    CHECK(state.begin >= e.ready);
+    CHECK((state.leg == 0 || state.leg == 1));
+    limited += state.end < kNever;
+    // Nobody comes while it stands there, and everybody is at rest after 10 s.
+    const Track standing(&kBlocks, state.pose, {});
+    for (const auto& other : e.others) {
+      for (Ticks t = state.begin; t <= std::min(state.end, 11000); t += 20) {
+        const Track::Sight seen = other->at(t);
+        CHECK(gap(kBlocks[0], Frame(state.pose), *seen.body, seen.frame, kFar) >= -0.001);
+      }
+    }
+  }
+  CHECK(limited > 0);
+  CHECK(first.end < 5000);  // the nose is half a metre ahead at 1 + t
+}
+
+TEST_CASE("With greed a long search ends sooner, with a way that may be longer") {
+  Errand e = detour();
+  const TourResult careful = e.run();
+  check_tour(e, careful);
+  const auto effort = e.trace.size();
+  CHECK(effort > 256);
+  e.params.greed = 1.0;
+  const TourResult greedy = e.run();
+  check_tour(e, greedy);
+  CHECK(e.trace.size() < effort);
+  CHECK(greedy.cost >= careful.cost);
+  CHECK(greedy.cost < 1.5 * careful.cost);
 }

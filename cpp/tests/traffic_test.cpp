@@ -356,3 +356,160 @@ TEST_CASE("A conservative step can lose half its slack, never a millimetre of co
     CHECK(step_slack(required) > 0.0);
   }
 }
+
+TEST_CASE("The circle around a track holds its body all the while") {
+  const std::vector<Body> bodies{Body({box_points(-0.3, -0.4, 1.9, 0.5)}, 0.0), forklift()};
+  Dice dice(57);
+  for (int i = 0; i < 60; ++i) {
+    const Pose start = dice.pose(10.0);
+    const Track track(&bodies, start, ride(dice, start, 10, i % 2));
+    for (int k = 0; k < 40; ++k) {
+      // Every fourth time just when it has come to rest.
+      const double begin =
+          k % 4 ? dice.between(0.0, track.settled()) : track.settled() + dice.between(0.0, 100.0);
+      const double end = begin + dice.between(0.0, k % 8 < 5 ? 100.0 : 3000.0);
+      const Circle around = track.around(begin, end);
+      double furthest = 0.0;
+      for (int n = 0; n <= 60; ++n) {
+        const Track::Sight seen = track.at(begin + (end - begin) * n / 60.0);
+        for (const Convex& part : seen.body->parts()) {
+          for (const Point& p : placed(part.vertices(), seen.frame)) {
+            furthest = std::max(furthest, std::hypot(p.x - around.x, p.y - around.y));
+          }
+        }
+      }
+      CHECK(furthest <= around.r + 1e-9);
+    }
+  }
+}
+
+TEST_CASE("The circle around a mover holds its body all the while") {
+  const std::vector<Body> bodies{Body({box_points(-0.3, -0.4, 1.9, 0.5)}, 0.0), forklift(),
+                                 disc(0.4)};
+  Dice dice(58);
+  for (int i = 0; i < 600; ++i) {
+    const Body& body = bodies[static_cast<std::size_t>(i % 3)];
+    const Twist twist{dice.between(-3, 3), dice.between(-1, 1), dice.between(-kPi, kPi)};
+    const Mover mover{&body, Frame(dice.pose(10.0)), twist, 0.0, 1000.0};
+    const Circle around = mover.around();
+    double furthest = 0.0;
+    for (int n = 0; n <= 60; ++n) {
+      const Frame f = moved(mover.start, twist.part(n / 60.0));
+      if (body.parts().empty()) {
+        furthest = std::max(furthest, std::hypot(f.x - around.x, f.y - around.y) + body.disc());
+      }
+      for (const Convex& part : body.parts()) {
+        for (const Point& p : placed(part.vertices(), f)) {
+          furthest = std::max(furthest, std::hypot(p.x - around.x, p.y - around.y));
+        }
+      }
+    }
+    CHECK(furthest <= around.r + 1e-9);
+  }
+}
+
+TEST_CASE("A track is never near before it is told that it may be") {
+  const std::vector<Body> bodies{Body({box_points(-0.3, -0.4, 1.9, 0.5)}, 0.0), forklift()};
+  Dice dice(59);
+  int near = 0, never = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Pose start = dice.pose(6.0);
+    const Track track(&bodies, start, ride(dice, start, 10, i % 2));
+    for (int k = 0; k < 40; ++k) {
+      const double from = dice.between(0.0, track.settled() + 500.0);
+      const double to = k % 4 ? from + dice.between(0.0, 5000.0) : kNever;
+      const double apart = dice.between(0.0, 1.0);
+      const Point p{dice.between(-2, 8), dice.between(-2, 8)};
+      const double told = track.may_be_near(from, to, p, apart);
+      CHECK(told >= from);
+      never += told > to;
+      for (double t = from; t <= std::min(to, track.settled() + 500.0); t += 9.0) {
+        const Track::Sight seen = track.at(t);
+        if (true_gap(*seen.body, seen.frame, disc(1e-9), Frame(Pose{p.x, p.y, 0})) > apart)
+          continue;
+        ++near;
+        CHECK(told <= t);
+        break;
+      }
+    }
+  }
+  CHECK(near > 200);
+  CHECK(never > 200);
+}
+
+TEST_CASE("Who is as near as asked about is told of at once") {
+  const std::vector<Body> bodies{disc(0.4), disc(0.4)};
+  Dice dice(60);
+  for (int i = 0; i < 3000; ++i) {
+    const Pose start = dice.pose(6.0);
+    const Track track(&bodies, start, ride(dice, start, 4, i % 2));
+    const double when = dice.between(0.0, track.settled() + 500.0);
+    const Track::Sight seen = track.at(when);
+    const Point p{dice.between(-2, 8), dice.between(-2, 8)};
+    const double apart = std::hypot(seen.frame.x - p.x, seen.frame.y - p.y) - 0.4;
+    CHECK(track.may_be_near(when, when, p, apart + 1e-9) == when);
+  }
+}
+
+TEST_CASE("Whoever stands between the ends and the middle of a drive is met") {
+  const std::vector<Body> bodies{disc(0.2)};
+  const Body block = rectangle(1.0, 0.6), bar = rectangle(2.0, 0.2);
+  const auto met = [&](const Pose& at, const Mover& mover) {
+    Traffic traffic({0, 0, 20, 20}, 2.0, 8.0, 0.0);
+    traffic.insert(0, std::make_shared<const Track>(&bodies, at, std::vector<TimedPiece>{}));
+    return traffic.first_conflict({0, 0, kNever}, mover, 0.0);
+  };
+  // 8 m along x from x = 1: the nose, 0.5 m ahead, meets a disc's edge 0.2 m before its centre.
+  const Mover along{&block, Frame(Pose{1, 5, 0}), {8, 0, 0}, 0, 8000};
+  CHECK(met({3, 5, 0}, along) == doctest::Approx(1300).epsilon(0.001));
+  CHECK(met({5, 5, 0}, along) == doctest::Approx(3300).epsilon(0.001));
+  CHECK(met({7, 5, 0}, along) == doctest::Approx(5300).epsilon(0.001));
+  CHECK(met({7, 5.51, 0}, along) < 0.0);  // 0.3 + 0.2 beside its line, and a centimetre
+  // Half a turn on the spot: a bar 0.1 m to either side comes within 0.2 m of a centre 0.8 m away
+  // at 60 degrees when it is at 60 - asin(0.3 / 0.8) = 37.98 of the 180 degrees.
+  const Mover turning{&bar, Frame(Pose{5, 5, 0}), {0, 0, kPi}, 0, 3000};
+  const Pose beside{5 + 0.8 * std::cos(kPi / 3), 5 + 0.8 * std::sin(kPi / 3), 0};
+  CHECK(
+      met(beside, turning) ==
+      doctest::Approx(3000.0 * (60.0 - std::asin(0.3 / 0.8) * 180.0 / kPi) / 180.0).epsilon(0.002));
+}
+
+TEST_CASE("Somebody who crosses is met in the middle of a drive that begins and ends clear") {
+  // Both at 1 m/s; the crosser's centre is on the line when the mover's is 4 m on its way.
+  const std::vector<Body> bodies{rectangle(1.0, 0.6)};
+  Traffic traffic({0, 0, 20, 20}, 2.0, 8.0, 0.0);
+  traffic.insert(0, std::make_shared<const Track>(
+                        &bodies, Pose{5, 1, kPi / 2},
+                        std::vector<TimedPiece>{drive(0, 8000, {5, 1, kPi / 2}, {8, 0, 0})}));
+  // Seen along x its front is at 1.5 + t and the crosser's side at 4.7: 3.2 s; along y the
+  // crosser's front is at 1.5 + t and its own side at 4.7: 3.2 s as well.
+  const Mover at_once{&bodies[0], Frame(Pose{1, 5, 0}), {8, 0, 0}, 0, 8000};
+  CHECK(traffic.first_conflict({0, 0, kNever}, at_once, 0.0) ==
+        doctest::Approx(3200).epsilon(0.001));
+  // 1.6 s later its front reaches the line's side when the crosser's tail (at t + 0.5) leaves it.
+  const Mover late{&bodies[0], Frame(Pose{1, 5, 0}), {8, 0, 0}, 1610, 8000};
+  CHECK(traffic.first_conflict({0, 0, kNever}, late, 0.0) < 0.0);
+}
+
+TEST_CASE("Bodies that stand in exact contact do not conflict, and the question ends") {
+  const std::vector<Body> bodies{rectangle(2.0, 1.0), rectangle(2.0, 1.0)};
+  const Body& body = bodies[0];
+  const std::vector<std::vector<TimedPiece>> others{
+      {},
+      {wait(0, 4000, {5, 5, 0}, 0), wait(4000, 8000, {5, 5, 0}, 1)},
+      {wait(0, 4000, {5, 5, 0}), drive(4000, 6000, {5, 5, 0}, {2, 0, 0})},
+      {drive(0, 2000, {3, 5, 0}, {2, 0, 0})}};
+  for (const auto& pieces : others) {
+    Traffic traffic({0, 0, 20, 20}, 2.0, 2.0, 0.1);
+    const Pose start = pieces.empty() ? Pose{5, 5, 0} : pieces.front().start;
+    traffic.insert(0, std::make_shared<const Track>(&bodies, start, pieces));
+    for (const double required : {0.0, 0.01, 0.1}) {
+      for (const double begin : {2000.0, 2500.5}) {
+        const Mover beside{&body, Frame(Pose{5, 6 + required, 0}), {}, begin, kNever - begin};
+        double last_clear = -1.0;
+        CHECK(traffic.first_conflict({0, 0, kNever}, beside, required, &last_clear) < 0.0);
+        CHECK(last_clear == kNever);
+      }
+    }
+  }
+}

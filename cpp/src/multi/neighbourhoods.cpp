@@ -10,9 +10,8 @@ namespace clearway {
 
 namespace {
 
-constexpr double kFailed = 0.8;       // weight of a robot whose neighbourhood gained nothing
-constexpr Ticks kAbout = 5000;        // who passes within this time is near
-constexpr double kPlainWeight = 1.0;  // on the heuristic: repairs look for the best
+constexpr double kFailed = 0.8;  // weight of a robot whose neighbourhood gained nothing
+constexpr Ticks kAbout = 5000;   // who passes within this time is near
 
 }  // namespace
 
@@ -26,13 +25,18 @@ NeighbourhoodSearch::NeighbourhoodSearch(Team& team, const TeamParams& params,
   for (std::size_t i = 0; i < n; ++i) {
     if (!team.plannable(i)) continue;
     plannable_.push_back(i);
-    least_[i] = team.agent(i).bound;
+    least_[i] = bound(i);
   }
 }
 
 std::int64_t NeighbourhoodSearch::price(const TourResult& tour) const {
   if (params_.objective.time) return tour.arrival;
   return static_cast<std::int64_t>(std::llround(tour.cost * kTicksPerSecond));
+}
+
+// Bounds are known on arrivals only.
+std::int64_t NeighbourhoodSearch::bound(std::size_t i) const {
+  return params_.objective.time ? team_.agent(i).bound : 0;
 }
 
 NeighbourhoodSearch::Value NeighbourhoodSearch::value() const {
@@ -47,8 +51,7 @@ NeighbourhoodSearch::Value NeighbourhoodSearch::value() const {
 // The way a robot would take if it were alone; the time it takes is what it can hope for.
 void NeighbourhoodSearch::learn_lone_way(std::size_t i, Budget& budget) {
   if (lone_[i]) return;
-  TourQuery query = team_.query(i, nullptr);
-  query.weight = kPlainWeight;
+  const TourQuery query = team_.query(i, nullptr);
   const auto legs = static_cast<std::int64_t>(team_.agent(i).legs.size());
   TourResult tour = team_.search(query, params_.search_limit * legs, budget);
   lone_[i] = team_.track(i);
@@ -129,13 +132,12 @@ bool NeighbourhoodSearch::replan(const std::vector<std::size_t>& chosen, Budget&
     old.push_back(team_.remove(i));
   }
   std::int64_t promised = 0;  // what those still to be planned cost at least
-  for (const std::size_t i : chosen) promised += team_.agent(i).bound;
+  for (const std::size_t i : chosen) promised += bound(i);
   std::size_t done = 0;
   for (; done < chosen.size(); ++done) {
     const std::size_t i = chosen[done];
-    promised -= team_.agent(i).bound;
+    promised -= bound(i);
     TourQuery query = team_.query(i, &team_.traffic());
-    query.weight = kPlainWeight;
     // Whoever costs more than this leaves the others too little.
     const std::int64_t most = params_.aim == Aim::kMakespan ? before.first + 1 : removed - promised;
     query.below = params_.objective.time
@@ -156,7 +158,7 @@ bool NeighbourhoodSearch::replan(const std::vector<std::size_t>& chosen, Budget&
 void NeighbourhoodSearch::operator()(std::uint32_t seed, Budget& budget, TeamResult& result) {
   random_.seed(seed);
   const int total = static_cast<int>(team_.size());
-  while (!budget.ended) {
+  while (budget.spend()) {
     const std::size_t late = pick_late();
     if (late == team_.size()) break;  // nobody can come any earlier
     learn_lone_way(late, budget);

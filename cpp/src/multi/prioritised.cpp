@@ -47,7 +47,7 @@ void PrioritisedPlanner::find_precedence(const std::vector<std::size_t>& order, 
       if (j == i) continue;
       const Agent& other = team_.agent(j);
       if (crosses(j, other.rest_body, other.legs.back().goal)) followers_[i].push_back(j);
-      if (crosses(j, 0, other.start)) followers_[j].push_back(i);
+      if (crosses(j, team_.first_body_number(j), other.start)) followers_[j].push_back(i);
     }
   }
 }
@@ -141,8 +141,9 @@ double PrioritisedPlanner::first_meeting(const Traffic& others, int other, std::
   const double required = team_.required(i)[static_cast<std::size_t>(other)];
   const Traffic::Presence always{other, 0, kNever};
   Frame at(team_.agent(i).start);
-  const Body* body = &team_.model(i).bodies[0];
+  const Body* body = &team_.first_body(i);
   Ticks t = 0;
+
   for (const TimedPiece& p : team_.agent(i).committed) {
     body = &team_.model(i).bodies[static_cast<std::size_t>(p.body)];
     at = Frame(p.start);
@@ -161,29 +162,30 @@ double PrioritisedPlanner::first_meeting(const Traffic& others, int other, std::
 // plans that run into one. What is fixed cannot be taken back; then the plan holds until there.
 void PrioritisedPlanner::settle(TeamResult& result) const {
   const std::size_t n = team_.size();
-  for (bool again = true; again;) {
-    again = false;
-    result.conflict_free_until = kNever;
-    Traffic others = team_.empty_traffic();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (result.planned[i]) {
-        others.insert(static_cast<int>(i), team_.place(i, result.tours[i]).track);
-      }
+  Traffic others = team_.empty_traffic();
+  std::vector<std::size_t> standing;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (result.planned[i]) {
+      others.insert(static_cast<int>(i), team_.place(i, result.tours[i]).track);
+    } else {
+      standing.push_back(i);
     }
-    for (std::size_t u = 0; u < n && !again; ++u) {
-      if (result.planned[u]) continue;
-      for (std::size_t i = 0; i < n && !again; ++i) {
-        if (!result.planned[i]) continue;
-        const double when = first_meeting(others, static_cast<int>(i), u);
-        if (when < 0.0) continue;
-        if (team_.plannable(i)) {
-          result.planned[i] = false;
-          result.tours[i] = {};
-          again = true;
-        } else {
-          result.conflict_free_until =
-              std::min(result.conflict_free_until, static_cast<Ticks>(when));
-        }
+  }
+  result.conflict_free_until = kNever;
+  while (!standing.empty()) {
+    const std::size_t u = standing.back();
+    standing.pop_back();
+    for (std::size_t i = 0; i < n; ++i) {
+      if (!result.planned[i]) continue;
+      const double when = first_meeting(others, static_cast<int>(i), u);
+      if (when < 0.0) continue;
+      if (team_.plannable(i)) {
+        result.planned[i] = false;
+        result.tours[i] = {};
+        others.remove(static_cast<int>(i));
+        standing.push_back(i);
+      } else {
+        result.conflict_free_until = std::min(result.conflict_free_until, static_cast<Ticks>(when));
       }
     }
   }

@@ -46,8 +46,11 @@ Team::Team(const std::vector<Model>& models, std::vector<Agent> agents, const Se
 }
 
 Traffic Team::empty_traffic() const {
-  return Traffic(models_.at(0).statics.at(0)->box(), largest_circumradius(models_),
-                 reach_of(models_), largest_gap_);
+  // A body within the box may have its reference point outside.
+  Box box = models_.at(0).statics.at(0)->box();
+  const double radius = largest_circumradius(models_);
+  box = {box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius};
+  return Traffic(box, radius, reach_of(models_), largest_gap_);
 }
 
 // Gaps to keep: the clearance, or what the scenario's own poses leave where that is less.
@@ -67,7 +70,7 @@ void Team::require_gaps(double margin) {
       const TimedPiece& last = agents_[i].committed.back();
       from = moved(last.start, last.twist);
     }
-    rests[i].push_back({Frame(from), &m.bodies[0]});
+    rests[i].push_back({Frame(from), &first_body(i)});
     for (Leg& leg : agents_[i].legs) {
       const auto b = static_cast<std::size_t>(leg.body);
       const double here = m.statics[b]->gap(m.bodies[b], Frame(from));
@@ -126,8 +129,14 @@ TourQuery Team::query(std::size_t i, const Traffic* traffic) const {
 Team::Place Team::place(std::size_t i, TourResult tour) const {
   std::vector<TimedPiece> pieces = agents_[i].committed;
   pieces.insert(pieces.end(), tour.pieces.begin(), tour.pieces.end());
-  return {std::move(tour),
-          std::make_shared<const Track>(&model(i).bodies, agents_[i].start, std::move(pieces))};
+  return {std::move(tour), make_track(i, std::move(pieces), kNever)};
+}
+
+// Without pieces it stands with its first body.
+std::shared_ptr<const Track> Team::make_track(std::size_t i, std::vector<TimedPiece> pieces,
+                                              Ticks gone) const {
+  if (pieces.empty()) pieces.push_back({0, 1, agents_[i].start, {}, -1, first_body_number(i)});
+  return std::make_shared<const Track>(&model(i).bodies, agents_[i].start, std::move(pieces), gone);
 }
 
 void Team::insert(std::size_t i, Place place) {
@@ -147,9 +156,7 @@ Team::Place Team::remove(std::size_t i) {
 void Team::hold(std::size_t i, Ticks until) {
   const Ticks ready = query(i, nullptr).ready;
   const auto stand = [&](std::size_t id, Ticks gone) {
-    traffic_.insert(static_cast<int>(id),
-                    std::make_shared<const Track>(&model(i).bodies, agents_[i].start,
-                                                  agents_[i].committed, gone));
+    traffic_.insert(static_cast<int>(id), make_track(i, agents_[i].committed, gone));
   };
   if (ready > 0) stand(2 * size() + i, ready);
   if (until > 0) stand(size() + i, until);

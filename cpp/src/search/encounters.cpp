@@ -53,13 +53,13 @@ bool Encounters::conflict(const Body& body, const Frame& from, const Drive& edge
   Frame at = from;
   double t = departure;
   const auto meets = [&](const Traffic::Presence& who, const Mover& mover) {
-    const double when = traffic_->first_conflict(who, mover, required(who.track));
+    const double when = traffic_->any_conflict(who, mover, required(who.track));
     if (when < 0.0) return false;
     *track = who.track;
     if (free_departure) {
       const double progress = (when - mover.begin) / mover.duration;
       const Frame place = moved(mover.start, mover.twist.part(progress));
-      const auto offset = static_cast<Ticks>(when - departure);
+      const auto offset = static_cast<Ticks>(std::ceil(when - departure));
       const Ticks limit = last_departure >= kNever ? kNever : last_departure + offset;
       const Ticks clear = traffic_->clear_after(who.track, body, place, departure + offset,
                                                 required(who.track), limit);

@@ -90,9 +90,7 @@ class TourRun {
         table_(query.fine ? query.model->fine : query.model->table),
         legs_(*query.legs),
         connect_table_(search.connect_table(*query.model, query.fine)),
-        weight_(query.penalty         ? search.params_.soft_weight
-                : query.weight >= 0.0 ? query.weight
-                                      : search.params_.weight),
+        weight_(query.penalty ? search.params_.soft_weight : search.params_.weight),
         meet_(query.traffic, query.required),
         cells_(search.memory_->cells),
         nodes_(search.memory_->nodes),
@@ -229,7 +227,6 @@ void TourRun::learn_distance(int leg) {
 // The longer a search lasts, the more it goes for the goal.
 void TourRun::grow_greedy() {
   next_greed_ *= 2;
-  if (q_.below < std::numeric_limits<double>::infinity()) return;
   const double greedier = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
   if (greedier == weight_) return;
   weight_ = greedier;
@@ -661,7 +658,10 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     result.is_full = static_cast<std::int64_t>(nodes_.size()) >= s_.params_.most_nodes;
     if (result.is_full || !budget.spend() || ++spent > limit) {
       result.outcome = TourResult::Outcome::kStopped;
-      return best_ == kNone || !q_.penalty ? result : extract(best_);
+      if (best_ == kNone || !q_.penalty) return result;
+      TourResult best = extract(best_);
+      best.is_full = result.is_full;
+      return best;
     }
     const bool can_wait = node.mode < 0 || table_.rest[static_cast<std::size_t>(node.mode)];
     Ticks met = node.t + 1;

@@ -24,6 +24,7 @@ Circle placed(const Circle& c, const Frame& f) {
   return {p.x, p.y, c.r};
 }
 
+constexpr double kTouching = 1e-7;  // a gap that much too small is rounding (m)
 constexpr double kTile = 2.5;
 constexpr double kChunk = 1.0;  // longest stretch of path marked at once (m)
 constexpr Ticks kMarch = 100;   // coarsest step when waiting for somebody to get clear
@@ -237,8 +238,9 @@ Outlook look(const Motion& self, const Track::Sight& other, double required, dou
 
 }  // namespace
 
-double Traffic::first_conflict(const Presence& who, const Mover& mover, double required,
-                               double* last_clear) const {
+template <bool any>
+double Traffic::find_conflict(const Presence& who, const Mover& mover, double required,
+                              double* last_clear) const {
   const Track& track = *tracks_[static_cast<std::size_t>(who.track)];
   const double finish = std::min(mover.begin + mover.duration, static_cast<double>(who.end));
   double t = std::max(mover.begin, static_cast<double>(who.begin));
@@ -262,6 +264,7 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
     place(middle);
     const Track::Sight other = track.at(middle);
     const Outlook sure = look(self, other, required, slack);
+    if (any && sure.room < -kTouching) return middle;
     if (sure.room >= 0.0) {
       clear_from = std::max(middle - sure.back, other.since);
       clear_to = std::min(middle + sure.ahead, other.until);
@@ -280,7 +283,7 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
     }
     const Track::Sight other = track.at(t);
     const Outlook sure = look(self, other, required, slack);
-    if (sure.room < -1e-7) return t;
+    if (sure.room < -kTouching) return t;
     if (last_clear) *last_clear = t;
     if (t >= finish) return -1.0;
     double next = t + sure.ahead;
@@ -299,6 +302,9 @@ double Traffic::first_conflict(const Presence& who, const Mover& mover, double r
   }
 }
 
+template double Traffic::find_conflict<false>(const Presence&, const Mover&, double, double*) const;
+template double Traffic::find_conflict<true>(const Presence&, const Mover&, double, double*) const;
+
 Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from, double required,
                            Ticks limit) const {
   const Track& track = *tracks_[static_cast<std::size_t>(id)];
@@ -313,9 +319,9 @@ Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from
   Ticks before = from, t = from;
   while (t <= limit && t < track.gone()) {
     const double lacking = missing(t);
-    if (lacking <= 0.0) {
+    if (lacking <= kTouching) {
       for (Ticks step = (t - before) / 2; step > kMarch / 4; step /= 2) {
-        if (missing(t - step) <= 0.0) t -= step;
+        if (missing(t - step) <= kTouching) t -= step;
       }
       return t;
     }

@@ -101,6 +101,14 @@ class Timetable:
         apart = np.maximum(self._low[one] - self._high[other], self._low[other] - self._high[one])
         return np.asarray(apart.max(axis=1))
 
+    def near(self, one: int) -> Iterator[tuple[int, Bools]]:
+        """Yield later movers that may touch this one, with the windows in which they may."""
+        low, high = self._low[one + 1 :], self._high[one + 1 :]
+        apart = np.maximum(self._low[one] - high, low - self._high[one])
+        touching = (apart[..., 0] <= 0.0) & (apart[..., 1] <= 0.0)
+        for other in np.flatnonzero(touching.any(axis=1)):
+            yield one + 1 + int(other), touching[other]
+
     def meeting(self, one: int, other: int, windows: Bools) -> Meeting:
         """Return two movers over the steps of some windows, cut at the ends of both."""
         times = []
@@ -126,12 +134,10 @@ def judge_pairs(movers: list[Mover], until: float, tolerance: float) -> list[Vio
     timetable = Timetable(movers, until)
     violations: list[Violation] = []
     for one in range(len(movers)):
-        for other in range(one + 1, len(movers)):
-            windows = timetable.box_gaps(one, other) <= 0.0
-            if windows.any():
-                meeting = timetable.meeting(one, other, windows)
-                near = meeting.pick(meeting.least_reference_gap <= 0.0)
-                violations += _conflicts(near, tolerance)
+        for other, windows in timetable.near(one):
+            meeting = timetable.meeting(one, other, windows)
+            near = meeting.pick(meeting.least_reference_gap <= 0.0)
+            violations += _conflicts(near, tolerance)
     return violations
 
 

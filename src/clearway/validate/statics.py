@@ -47,6 +47,7 @@ class Surroundings:
         if site.border == "closed":
             outside = outside_parts(site.bounds, margin)
             self._things.append(Thing("bounds", "the bounds", outside, border))
+        self._stops: dict[str, Bools] = {}
         self._parts = [part for thing in self._things for part in thing.parts]
         self._owner = np.array(
             [i for i, thing in enumerate(self._things) for _ in thing.parts], dtype=np.intp
@@ -61,14 +62,7 @@ class Surroundings:
         found: list[Encounters] = []
         empty, loaded = (max(part.reach for part in body) for body in bodies)
         step, part = self._near(steps, steps.where_loaded(loaded, empty))
-        blocks = np.array(
-            [
-                [self._blocks(thing, kind.name, state) for thing in range(len(self._things))]
-                for state in (False, True)
-            ],
-            dtype=bool,
-        )
-        wanted = blocks[steps.loaded[step].astype(np.intp), self._owner[part]]
+        wanted = self._blocking(kind.name)[steps.loaded[step].astype(np.intp), self._owner[part]]
         step, part = step[wanted], part[wanted]
         for state, body in enumerate(bodies):
             for size in np.unique(self._sizes[part]):
@@ -129,6 +123,18 @@ class Surroundings:
             return []
         owner = self._owner[part[deep]]
         return [Encounters(owner, steps.pick(step[deep]), a.pick(deep), b.pick(deep))]
+
+    def _blocking(self, kind: str) -> Bools:
+        """Return what stops a type, empty and loaded; shape ``(2, num_things)``."""
+        if kind not in self._stops:
+            self._stops[kind] = np.array(
+                [
+                    [self._blocks(thing, kind, state) for thing in range(len(self._things))]
+                    for state in (False, True)
+                ],
+                dtype=bool,
+            )
+        return self._stops[kind]
 
     def _blocks(self, thing: int, kind: str, loaded: bool) -> bool:
         if thing < len(self._site.obstacles):

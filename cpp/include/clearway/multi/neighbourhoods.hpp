@@ -27,6 +27,7 @@ class NeighbourhoodSearch {
   };
 
   std::int64_t price(const TourResult& tour) const;
+  std::int64_t bound(std::size_t i) const;
   Value value() const;
   void learn_lone_way(std::size_t i, Budget& budget);
   std::size_t pick_late();

@@ -40,6 +40,14 @@ class Team {
   const Model& model(std::size_t i) const {
     return models_[static_cast<std::size_t>(agents_[i].model)];
   }
+  // With which body it starts, before anything that it is committed to.
+  int first_body_number(std::size_t i) const {
+    const Agent& agent = agents_[i];
+    return agent.legs.empty() ? agent.rest_body : agent.legs.front().body;
+  }
+  const Body& first_body(std::size_t i) const {
+    return model(i).bodies[static_cast<std::size_t>(first_body_number(i))];
+  }
   bool plannable(std::size_t i) const { return !agents_[i].fixed && !agents_[i].legs.empty(); }
   bool planned(std::size_t i) const { return planned_[i]; }
   const TourResult& tour(std::size_t i) const { return places_[i].tour; }
@@ -69,6 +77,8 @@ class Team {
 
  private:
   void require_gaps(double margin);
+  std::shared_ptr<const Track> make_track(std::size_t i, std::vector<TimedPiece> pieces,
+                                          Ticks gone) const;
 
   const std::vector<Model>& models_;
   std::vector<Agent> agents_;

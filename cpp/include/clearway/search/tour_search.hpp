@@ -63,7 +63,6 @@ struct TourQuery {
   const std::vector<double>* required = nullptr;  // gap to each track
   const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;
                                                   // negative: it does not move away
-  double weight = -1.0;                           // on the heuristic; negative: that of the search
   double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
   std::vector<Expanded>* trace = nullptr;                  // filled in the order of expansion
 };

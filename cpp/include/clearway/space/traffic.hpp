@@ -70,7 +70,8 @@ class Track {
     const double middle = 0.5 * (begin + end);
     const auto nearest = static_cast<std::size_t>(std::max(0.0, middle) / kSlot + 0.5);
     Circle c = nearest < centres_.size() ? centres_[nearest] : rest_;
-    if (begin < settled()) c.r += 0.5 * (end - begin + kSlot) * centre_speed_;
+    if (begin < settled() || nearest < centres_.size())
+      c.r += 0.5 * (end - begin + kSlot) * centre_speed_;
     return c;
   }
 
@@ -136,7 +137,14 @@ class Traffic {
   // First tick at which the mover's gap to a track falls below `required`, or a negative value.
   // `last_clear` becomes the last tick known to be clear before that.
   double first_conflict(const Presence& who, const Mover& mover, double required,
-                        double* last_clear = nullptr) const;
+                        double* last_clear = nullptr) const {
+    return find_conflict<false>(who, mover, required, last_clear);
+  }
+
+  // Likewise, but any such tick will do, which is found sooner.
+  double any_conflict(const Presence& who, const Mover& mover, double required) const {
+    return find_conflict<true>(who, mover, required, nullptr);
+  }
 
   // First tick from `from` on at which a body at rest is clear of a track it now conflicts with;
   // one later than `limit` may be returned as soon as it is known to be.
@@ -144,6 +152,9 @@ class Traffic {
                     Ticks limit = kNever) const;
 
  private:
+  template <bool any>
+  double find_conflict(const Presence& who, const Mover& mover, double required,
+                       double* last_clear) const;
   std::size_t tile(double x, double y) const;
 
   Box box_;
