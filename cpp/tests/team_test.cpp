@@ -166,3 +166,23 @@ TEST_CASE("A leg keeps from walls what its ends leave") {
   CHECK(legs[2].required == doctest::Approx(0.1));
   CHECK(legs[3].required == doctest::Approx(0.25));
 }
+
+TEST_CASE("An idle robot that carries a load is passed with its load on") {
+  // Its body reaches 0.3 m, with the load 1 m; the way straight past it leads 0.9 m beside.
+  Setting t;
+  t.models.push_back(rover(disc(0.3), hall(20, 12)));
+  t.models.back().bodies.at(1) = disc(1.0);
+  t.add({10, 6, 0}, {});
+  t.agents.back().rest_body = 1;
+  t.add({3, 6.9, 0}, {to({17, 6.9, 0})});
+  const TeamResult result = t.run();
+  REQUIRE(result.status == TeamResult::Status::kSolved);
+  double nearest = 1e300;
+  for (const TimedPiece& p : result.tours[1].pieces) {
+    for (double share = 0.0; share <= 1.0; share += 0.02) {
+      const Pose at = moved(p.start, p.twist.part(share));
+      nearest = std::min(nearest, std::hypot(at.x - 10.0, at.y - 6.0));
+    }
+  }
+  CHECK(nearest >= 1.3 - 0.001);
+}

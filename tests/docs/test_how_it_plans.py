@@ -120,5 +120,5 @@ def test_the_page_tells_the_constants_of_the_core(file, constant, told):
 def test_the_page_tells_the_headings():
     """16 of them, and 32 in the retry."""
     assert "a full turn / 16 (`COARSE_HEADINGS`)" in WORDS
-    assert "with 32 headings (`FINE_HEADINGS`)" in WORDS
-    assert (COARSE_HEADINGS, FINE_HEADINGS) == (16, 32)
+    assert "with 64 headings (`FINE_HEADINGS`)" in WORDS
+    assert (COARSE_HEADINGS, FINE_HEADINGS) == (16, 64)

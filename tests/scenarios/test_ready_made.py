@@ -15,10 +15,11 @@ from clearway.validate.legality import check_scenario
 FOLDER = Path(__file__).parents[2] / "scenarios"
 # Robots, tasks, and an effort that is a few times what each takes.
 READY = {
-    "tight-room": (4, 4, 1_000_000),
+    "mixed-64": (64, 64, 400_000),
+    "tight-room": (4, 4, 200_000),
     "warehouse-8x24": (8, 24, 100_000),
     "warehouse-16x48": (16, 48, 200_000),
-    "yard-30": (30, 30, 1_000_000),
+    "yard-30": (30, 30, 200_000),
 }
 
 

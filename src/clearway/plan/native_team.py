@@ -20,7 +20,7 @@ from clearway.motion.native import native_table
 from clearway.plan.bounds import Bounds
 from clearway.world.obstacles import native_body, native_obstacles
 
-COARSE_HEADINGS, FINE_HEADINGS = 16, 32
+COARSE_HEADINGS, FINE_HEADINGS = 16, 64
 
 
 class NativeTeam:

@@ -169,7 +169,7 @@ def _verdict(
                 "the largest disc inside its body"
             )
         return Status.STOPPED, (
-            f"no plan on this lattice for {names}, alone on the site and with 32 headings; "
+            f"no plan on this lattice for {names}, alone on the site and with 64 headings; "
             "widen the passage or move the goal"
         )
     if answer.restarts > params.restarts:
