@@ -19,8 +19,8 @@ from clearway.world.generate import generate
 
 PUBLIC = {
     f"{side}x{side}-{robots}": f"map{side}by{side}/agents{robots}/obstacle"
-    for side, robots in ((50, 5), (50, 10), (50, 15), (50, 20), (100, 20), (100, 30), (100, 40))
-    + ((100, 50), (300, 50), (300, 100))
+    for side, all_robots in ((50, (5, 10, 15, 20)), (100, (20, 30, 40, 50)), (300, (50, 100)))
+    for robots in all_robots
 }
 # kind, robots, side (m), density: discs of 0.8 m as many as in the public sets, or as sparse.
 GENERATED = {

@@ -33,7 +33,7 @@ def main() -> None:
             def start(begin: list[float] = begin) -> None:
                 begin[0] = time.process_time()
 
-            plan = plan_once(site, system, Budget(expansions=500_000), seed, before_planning=start)
+            plan = plan_once(site, system, Budget(), seed, before_planning=start)
             seconds += time.process_time() - begin[0]
             expansions += plan.counters["expansions"]
             total += sum(path.end for path in plan.trajectories.values()) / 1000.0

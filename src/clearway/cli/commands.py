@@ -14,7 +14,7 @@ from clearway.cli.run_folder import write_plan_first, write_rest
 from clearway.formats.scenario_file import read_scenario
 from clearway.model import Scenario
 from clearway.protocols import Budget
-from clearway.systems.solve import Run, judge_plan, make_plan
+from clearway.systems.solve import FEW_ROBOTS, Run, judge_plan, make_plan
 
 
 def _print_json(content: dict[str, Any]) -> None:
@@ -33,6 +33,10 @@ def _solve(arguments: argparse.Namespace, source: Path, scenario: Scenario) -> i
         )
         # The plan is kept before anything else is done with it.
         written = write_plan_first(planned, source, out)
+        if planned.interrupted and len(scenario.robots) > FEW_ROBOTS:
+            # Judging many takes longer than who presses Ctrl-C wants to wait.
+            kept = f"the plan so far is in {written[0]}, not judged; run clearway validate {out}"
+            return interrupted(arguments, kept)
         try:
             line.say("judging")
             run = judge_plan(planned, clock=time.process_time)
