@@ -108,7 +108,6 @@ def test_the_page_tells_the_defaults_of_a_search(name, value, told):
         ("search/tour_search.cpp", "kFirstGreed = 256;", "after 256 expansions"),
         ("search/tour_search.cpp", "kMostWeight = 2.5;", "up to 2.5"),
         ("multi/prioritised.cpp", "3 * order.size() + 8;", "three times as many robots"),
-        ("multi/neighbourhoods.cpp", "kPlainWeight = 1.0;", "with weight 1"),
     ],
 )
 def test_the_page_tells_the_constants_of_the_core(file, constant, told):
