@@ -7,7 +7,13 @@ import numpy as np
 import pytest
 from tests.oracles.brute_force_assignment import optimum
 
-from clearway.protocols import AssignmentProblem, Weights, check_routes, objective
+from clearway.protocols import (
+    AssignmentProblem,
+    Weights,
+    check_routes,
+    finish_times,
+    objective,
+)
 
 # Two robots, three tasks: distances from starts, between tasks, and turns.
 START = np.array([[3.0, 5.0, 9.0], [8.0, 4.0, 2.0]])
@@ -157,3 +163,54 @@ def test_all_costs_scale_together():
     )
     for routes in ([(0, 1), (2,)], [(2, 0), (1,)], [(), (1, 2, 0)]):
         assert objective(tripled, routes).value == 3.0 * objective(problem, routes).value
+
+
+def line(**more):
+    """Two robots and four tasks, every leg a metre long, driven at 2 m/s."""
+    return AssignmentProblem(
+        ("a", "b"),
+        ("t0", "t1", "t2", "t3"),
+        np.ones((2, 4)),
+        1.0,
+        0.0,
+        0.0,
+        **({"speed": 2.0} | more),
+    )
+
+
+def test_a_task_begins_once_those_before_it_are_finished():
+    """Worked by hand: t2 is reached after 0.5 s, waits until t0 is finished at 2.5 s."""
+    problem = line(service=2.0, before=((0, 2),))
+    assert finish_times(problem, ((0, 1), (2, 3))) == pytest.approx([2.5, 5.0, 4.5, 7.0])
+
+
+def test_every_second_late_costs():
+    problem = line(due=np.array([0.25, np.inf, np.inf, 0.5]), weights=Weights(tardiness=10.0))
+    worth = objective(problem, ((0, 1), (2, 3)))
+    assert worth.tardiness == pytest.approx(0.25 + 0.5)
+    assert worth.value == pytest.approx(2.0 + 4.0 + 7.5)
+
+
+def test_tasks_that_wait_for_each_other_are_named():
+    with pytest.raises(ValueError, match="t1 before t2 before t3 before t1; drop one"):
+        line(before=((1, 2), (0, 1), (2, 3), (3, 1)))
+
+
+def test_routes_that_wait_for_each_other_are_refused():
+    with pytest.raises(ValueError, match="routes wait for each other"):
+        objective(line(before=((1, 2), (3, 0))), ((0, 1), (2, 3)))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"speed": 0.0}, "speed must be above 0"),
+        ({"service": np.nan}, "service"),
+        ({"service": np.inf}, "service must be finite"),
+        ({"due": -1.0}, "due"),
+        ({"before": ((0, 9),)}, "before names tasks 0 and 9"),
+    ],
+)
+def test_wrong_times_are_named(wrong, told):
+    with pytest.raises(ValueError, match=told):
+        line(**wrong)

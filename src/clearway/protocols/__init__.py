@@ -8,6 +8,8 @@ from clearway.protocols.assignment import (
     Routes,
     Weights,
     check_routes,
+    find_circle,
+    finish_times,
     objective,
 )
 from clearway.protocols.planning import Budget, Planner, Progress
@@ -23,5 +25,7 @@ __all__ = [
     "Routes",
     "Weights",
     "check_routes",
+    "find_circle",
+    "finish_times",
     "objective",
 ]

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Protocol, TypeVar
 
 import numpy as np
@@ -15,14 +16,15 @@ Scalar = TypeVar("Scalar", bound=np.generic)
 
 @dataclass(frozen=True)
 class Weights:
-    """What a metre of the longest route, a metre of any route and a radian of turning cost."""
+    """What a metre of the longest route, one of any, a radian of turn and a second late cost."""
 
     max_distance: float = 1.0
     total_distance: float = 1.0
     turning: float = 1.0
+    tardiness: float = 1.0
 
     def __post_init__(self) -> None:
-        for name in ("max_distance", "total_distance", "turning"):
+        for name in ("max_distance", "total_distance", "turning", "tardiness"):
             value = getattr(self, name)
             if not (np.isfinite(value) and value >= 0.0):
                 raise ValueError(f"weight {name} must be 0 or above and finite, got {value}")
@@ -36,7 +38,8 @@ class AssignmentProblem:
     """m robots, n tasks and what it costs to go from one to the next.
 
     Arrays are copied, made read-only and spread to the shapes below, so a matrix of shape
-    ``(n, n)`` serves robots that all drive alike.
+    ``(n, n)`` serves robots that all drive alike. Robots of unlike speeds have distances as the
+    fastest would drive them in the same time, so that routes of equal length take equally long.
 
     Parameters
     ----------
@@ -55,6 +58,14 @@ class AssignmentProblem:
     allowed
         Whether a robot may do a task, ``(m, n)``; an infinite ``start_to_task`` or
         ``inner`` forbids it too.
+    speed
+        At which all distances are driven (m/s).
+    service
+        Time (s) that the visits of each task take, ``(n,)``.
+    due
+        When each task is to be finished (s), ``(n,)``; infinite where that does not matter.
+    before
+        Pairs of tasks of which the first must be finished before the second begins.
     """
 
     robots: tuple[str, ...]
@@ -66,6 +77,10 @@ class AssignmentProblem:
     inner: Floats = field(default_factory=lambda: np.zeros(()))
     allowed: Bools = field(default_factory=lambda: np.ones((), dtype=np.bool_))
     weights: Weights = EQUAL_WEIGHTS
+    speed: float = 1.0
+    service: Floats = field(default_factory=lambda: np.zeros(()))
+    due: Floats = field(default_factory=lambda: np.full((), np.inf))
+    before: tuple[tuple[int, int], ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("robots", "tasks"):
@@ -80,6 +95,8 @@ class AssignmentProblem:
             ("start_turn", (m, n)),
             ("task_turn", (n, n)),
             ("inner", (m, n)),
+            ("service", (n,)),
+            ("due", (n,)),
         ):
             costs = _spread(np.array(getattr(self, name), dtype=np.float64), shape, name)
             wrong = np.argwhere(~(costs >= 0.0))
@@ -87,7 +104,7 @@ class AssignmentProblem:
                 place = tuple(int(i) for i in wrong[0])
                 raise ValueError(f"{name}{list(place)} must be 0 or above, got {costs[place]}")
             object.__setattr__(self, name, costs)
-        for name in ("start_turn", "task_turn"):
+        for name in ("start_turn", "task_turn", "service"):
             if not np.isfinite(getattr(self, name)).all():
                 raise ValueError(f"{name} must be finite")
         allowed = _spread(np.array(self.allowed, dtype=np.bool_), (m, n), "allowed")
@@ -96,16 +113,35 @@ class AssignmentProblem:
         object.__setattr__(self, "allowed", allowed)
         for task in np.flatnonzero(~allowed.any(axis=0)):
             raise ValueError(f"no robot may do task {self.tasks[task]}; allow or drop it")
+        if not (np.isfinite(self.speed) and self.speed > 0.0):
+            raise ValueError(f"speed must be above 0 and finite, got {self.speed}")
+        self._check_before()
+
+    def _check_before(self) -> None:
+        n = len(self.tasks)
+        for first, second in self.before:
+            if not (0 <= first < n and 0 <= second < n):
+                raise ValueError(f"before names tasks {first} and {second}, but there are {n}")
+        circle = find_circle(self.before)
+        if circle:
+            told = " before ".join(self.tasks[task] for task in (*circle, circle[0]))
+            raise ValueError(f"tasks wait for each other: {told}; drop one of these")
+
+    @property
+    def is_timed(self) -> bool:
+        """Whether it matters when tasks are done: some are due, or must wait for others."""
+        return bool(self.before) or bool(np.isfinite(self.due).any())
 
 
 @dataclass(frozen=True)
 class Objective:
-    """The value of a set of routes (to be minimised) and its terms (m, m, rad)."""
+    """The value of a set of routes (to be minimised) and its terms (m, m, rad, s)."""
 
     value: float
     max_distance: float
     total_distance: float
     turning: float
+    tardiness: float = 0.0
 
 
 class Assigner(Protocol):
@@ -138,14 +174,15 @@ def check_routes(problem: AssignmentProblem, routes: Sequence[Sequence[int]]) ->
 
 
 def objective(problem: AssignmentProblem, routes: Sequence[Sequence[int]]) -> Objective:
-    """Return longest route, sum of routes and sum of turns, weighted and apart.
+    """Return longest route, sum of routes, of turns and of delays, weighted and apart.
 
     A route begins at the robot's start and ends at its last task; an empty one has length 0.
 
     Raises
     ------
     ValueError
-        If a task is left out, done twice or given to a robot that may not do it.
+        If a task is left out, done twice or given to a robot that may not do it, or if routes
+        wait for each other.
     """
     check_routes(problem, routes)
     lengths = [0.0]
@@ -162,14 +199,79 @@ def objective(problem: AssignmentProblem, routes: Sequence[Sequence[int]]) -> Ob
             length += float(problem.inner[robot, task])
         lengths.append(length)
     longest, total, weights = max(lengths), sum(lengths), problem.weights
+    late = 0.0
+    if problem.is_timed:
+        late = float(np.maximum(finish_times(problem, routes) - problem.due, 0.0).sum())
     return Objective(
         value=weights.max_distance * longest
         + weights.total_distance * total
-        + weights.turning * turning,
+        + weights.turning * turning
+        + weights.tardiness * late,
         max_distance=longest,
         total_distance=total,
         turning=turning,
+        tardiness=late,
     )
+
+
+def finish_times(problem: AssignmentProblem, routes: Sequence[Sequence[int]]) -> Floats:
+    """Return when each task is finished (s), if everybody sets out at once and nobody is met.
+
+    A robot drives up to a task's first visit and waits there until all tasks that must be
+    finished before are.
+
+    Raises
+    ------
+    ValueError
+        If routes wait for each other; names the tasks.
+    """
+    follows = [pair for route in routes for pair in pairwise(route)]
+    circle = find_circle((*problem.before, *follows))
+    if circle:
+        told = ", ".join(problem.tasks[task] for task in circle)
+        raise ValueError(f"routes wait for each other at {told}")
+    waits: dict[int, list[int]] = {}
+    for first, second in problem.before:
+        waits.setdefault(second, []).append(first)
+    done = np.full(len(problem.tasks), np.nan)
+    ahead = [list(route) for route in routes]
+    at: list[int | None] = [None] * len(ahead)
+    while any(ahead):
+        for robot, route in enumerate(ahead):
+            while route and not np.isnan(done[waits.get(route[0], [])]).any():
+                task, here = route.pop(0), at[robot]
+                came = (
+                    problem.start_to_task[robot, task] / problem.speed
+                    if here is None
+                    else done[here] + problem.task_to_task[robot, here, task] / problem.speed
+                )
+                begin = max(came, *done[waits.get(task, [])], 0.0)
+                done[task] = begin + problem.inner[robot, task] / problem.speed
+                done[task] += problem.service[task]
+                at[robot] = task
+    return done
+
+
+def find_circle(pairs: Sequence[tuple[int, int]]) -> list[int]:
+    """Return numbers that follow each other round in a circle, or nothing."""
+    after: dict[int, list[int]] = {}
+    for first, second in pairs:
+        after.setdefault(first, []).append(second)
+    seen: set[int] = set()
+    for root in after:
+        path: list[int] = []
+        left = [(root, 0)]
+        while left:
+            number, depth = left.pop()
+            del path[depth:]
+            if number in path:
+                return path[path.index(number) :]
+            if number in seen:
+                continue
+            seen.add(number)
+            path.append(number)
+            left += [(follower, depth + 1) for follower in after.get(number, ())]
+    return []
 
 
 def _spread(array: NDArray[Scalar], shape: tuple[int, ...], name: str) -> NDArray[Scalar]:
