@@ -9,5 +9,6 @@ void bind_body(nanobind::module_& m);
 void bind_statics(nanobind::module_& m);
 void bind_motion(nanobind::module_& m);
 void bind_prioritised(nanobind::module_& m);
+void bind_conflict_search(nanobind::module_& m);
 
 }  // namespace clearway::bindings

@@ -6,4 +6,5 @@ NB_MODULE(_core, m) {
   clearway::bindings::bind_statics(m);
   clearway::bindings::bind_motion(m);
   clearway::bindings::bind_prioritised(m);
+  clearway::bindings::bind_conflict_search(m);
 }

@@ -681,3 +681,178 @@ def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamPara
     """
     Plan a team, then plan it better until the budget or an interrupt ends that.
     """
+
+class Heuristic(enum.Enum):
+    """How a search over a lattice estimates what is left."""
+
+    LOOK_BACK = 0
+
+    BOUND = 1
+
+    PAPER = 2
+
+class ConflictMode(enum.Enum):
+    """What conflict-based search aims at."""
+
+    OPTIMAL = 0
+
+    BOUNDED = 1
+
+    GREEDY = 2
+
+class LatticeParams:
+    """What makes a robot's finite graph."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def slot(self) -> int: ...
+
+    @slot.setter
+    def slot(self, arg: int, /) -> None: ...
+
+    @property
+    def shot_words(self) -> int: ...
+
+    @shot_words.setter
+    def shot_words(self, arg: int, /) -> None: ...
+
+    @property
+    def shot_reach(self) -> float: ...
+
+    @shot_reach.setter
+    def shot_reach(self, arg: float, /) -> None: ...
+
+    @property
+    def most_nodes(self) -> int: ...
+
+    @most_nodes.setter
+    def most_nodes(self, arg: int, /) -> None: ...
+
+class ConflictParams:
+    """Choices of conflict-based search."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def mode(self) -> ConflictMode: ...
+
+    @mode.setter
+    def mode(self, arg: ConflictMode, /) -> None: ...
+
+    @property
+    def objective(self) -> Objective: ...
+
+    @objective.setter
+    def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def lattice(self) -> LatticeParams: ...
+
+    @lattice.setter
+    def lattice(self, arg: LatticeParams, /) -> None: ...
+
+    @property
+    def heuristic(self) -> Heuristic: ...
+
+    @heuristic.setter
+    def heuristic(self, arg: Heuristic, /) -> None: ...
+
+    @property
+    def factor(self) -> float: ...
+
+    @factor.setter
+    def factor(self, arg: float, /) -> None: ...
+
+    @property
+    def xi(self) -> float: ...
+
+    @xi.setter
+    def xi(self, arg: float, /) -> None: ...
+
+    @property
+    def adaptive(self) -> bool: ...
+
+    @adaptive.setter
+    def adaptive(self, arg: bool, /) -> None: ...
+
+    @property
+    def meeting(self) -> float: ...
+
+    @meeting.setter
+    def meeting(self, arg: float, /) -> None: ...
+
+    @property
+    def attempts(self) -> int: ...
+
+    @attempts.setter
+    def attempts(self, arg: int, /) -> None: ...
+
+    @property
+    def first_limit(self) -> int: ...
+
+    @first_limit.setter
+    def first_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def most_nodes(self) -> int: ...
+
+    @most_nodes.setter
+    def most_nodes(self, arg: int, /) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+class ConflictStatus(enum.Enum):
+    """How conflict-based search ended."""
+
+    SOLVED = 0
+
+    STOPPED = 1
+
+    NONE = 2
+
+class ConflictAnswer:
+    """What conflict-based search came to."""
+
+    @property
+    def status(self) -> ConflictStatus: ...
+
+    @property
+    def tours(self) -> list[TourResult]: ...
+
+    @property
+    def concerned(self) -> list[int]: ...
+
+    @property
+    def cost(self) -> float: ...
+
+    @property
+    def proven(self) -> bool: ...
+
+    @property
+    def largest_group(self) -> int: ...
+
+    @property
+    def bound(self) -> float: ...
+
+    @property
+    def expansions(self) -> int: ...
+
+    @property
+    def nodes(self) -> int: ...
+
+    @property
+    def searches(self) -> int: ...
+
+    @property
+    def too_large(self) -> bool: ...
+
+    @property
+    def interrupted(self) -> bool: ...
+
+def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
+    """Plan a team by conflict-based search on bodies."""

@@ -55,24 +55,6 @@ std::int64_t worth_a_distance(const Statics& statics, double inradius) {
 
 }  // namespace
 
-// Append a piece; one that goes on as the last one did becomes part of it.
-void join(std::vector<TimedPiece>& pieces, const TimedPiece& next) {
-  if (!pieces.empty() && next.mode >= 0) {
-    TimedPiece& last = pieces.back();
-    const double rate = static_cast<double>(last.end - last.begin) / (next.end - next.begin);
-    const Twist& t = next.twist;
-    if (last.mode == next.mode && last.body == next.body && last.end == next.begin &&
-        std::abs(last.twist.a - t.a * rate) + std::abs(last.twist.b - t.b * rate) +
-                std::abs(last.twist.c - t.c * rate) <
-            1e-9) {
-      last.twist = {last.twist.a + t.a, last.twist.b + t.b, last.twist.c + t.c};
-      last.end = next.end;
-      return;
-    }
-  }
-  pieces.push_back(next);
-}
-
 // What a search fills; kept so that the next one need not allocate.
 struct TourMemory {
   Cells cells;

@@ -31,6 +31,23 @@ constexpr Ticks kMarch = 100;   // coarsest step when waiting for somebody to ge
 
 }  // namespace
 
+void join(std::vector<TimedPiece>& pieces, const TimedPiece& next) {
+  if (!pieces.empty() && next.mode >= 0) {
+    TimedPiece& last = pieces.back();
+    const double rate = static_cast<double>(last.end - last.begin) / (next.end - next.begin);
+    const Twist& t = next.twist;
+    if (last.mode == next.mode && last.body == next.body && last.end == next.begin &&
+        std::abs(last.twist.a - t.a * rate) + std::abs(last.twist.b - t.b * rate) +
+                std::abs(last.twist.c - t.c * rate) <
+            1e-9) {
+      last.twist = {last.twist.a + t.a, last.twist.b + t.b, last.twist.c + t.c};
+      last.end = next.end;
+      return;
+    }
+  }
+  pieces.push_back(next);
+}
+
 Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
              Ticks gone)
     : bodies_(bodies), pieces_(std::move(pieces)), gone_(gone) {
@@ -239,11 +256,10 @@ Outlook look(const Motion& self, const Track::Sight& other, double required, dou
 }  // namespace
 
 template <bool any>
-double Traffic::find_conflict(const Presence& who, const Mover& mover, double required,
-                              double* last_clear) const {
-  const Track& track = *tracks_[static_cast<std::size_t>(who.track)];
-  const double finish = std::min(mover.begin + mover.duration, static_cast<double>(who.end));
-  double t = std::max(mover.begin, static_cast<double>(who.begin));
+double meeting(const Track& track, Ticks begin, Ticks end, const Mover& mover, double required,
+               double* last_clear) {
+  const double finish = std::min(mover.begin + mover.duration, static_cast<double>(end));
+  double t = std::max(mover.begin, static_cast<double>(begin));
   if (t > finish) return -1.0;
   const double radius = mover.body->circumradius();
   const double travel = mover.twist.length() + std::abs(mover.twist.c) * radius;
@@ -302,12 +318,11 @@ double Traffic::find_conflict(const Presence& who, const Mover& mover, double re
   }
 }
 
-template double Traffic::find_conflict<false>(const Presence&, const Mover&, double, double*) const;
-template double Traffic::find_conflict<true>(const Presence&, const Mover&, double, double*) const;
+template double meeting<false>(const Track&, Ticks, Ticks, const Mover&, double, double*);
+template double meeting<true>(const Track&, Ticks, Ticks, const Mover&, double, double*);
 
-Ticks Traffic::clear_after(int id, const Body& body, const Frame& at, Ticks from, double required,
-                           Ticks limit) const {
-  const Track& track = *tracks_[static_cast<std::size_t>(id)];
+Ticks clear_after(const Track& track, const Body& body, const Frame& at, Ticks from,
+                  double required, Ticks limit) {
   const Circle mine = placed(body.bound(), at);
   Ticks still = 0;
   const auto missing = [&](Ticks t) {

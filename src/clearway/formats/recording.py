@@ -42,6 +42,7 @@ def record_plan(
         cost=cost,
         cost_name=cost_name,
         cost_lower_bound=plan.cost_lower_bound if cost is not None else None,
+        discrete_bound=plan.discrete_bound,
         conflict_free_until=plan.conflict_free_until,
         parameters={
             **(parameters or {}),

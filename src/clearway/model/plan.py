@@ -27,7 +27,8 @@ class Plan:
 
     ``conflict_free_until`` is in seconds, ``None`` for ever. Robots that are not planned
     have no trajectory and stand at their start. ``concerned`` names the robots that
-    ``reason`` is about.
+    ``reason`` is about. ``discrete_bound`` holds what is proven on the finite graph that was
+    searched: ``bound`` and ``factor`` of the figure named ``of``, and the ``graph``'s name.
     """
 
     status: Status
@@ -41,6 +42,7 @@ class Plan:
     cost: float | None = None
     cost_name: str | None = None
     cost_lower_bound: float | None = None
+    discrete_bound: Mapping[str, str | float] | None = None
     counters: Mapping[str, int] = field(default_factory=dict)
 
     def __bool__(self) -> bool:

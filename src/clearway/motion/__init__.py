@@ -9,6 +9,7 @@ from clearway.motion.differential import differential
 from clearway.motion.forklift import forklift
 from clearway.motion.four_wheel import four_wheel
 from clearway.motion.holonomic import holonomic
+from clearway.motion.lattice import LATTICE_HEADINGS, lattice_model
 from clearway.motion.model import Curve, Mode, Motion, MotionModel
 
 # By name: the kinematics it fits, and how it is built for a type and a number of headings.
@@ -33,6 +34,7 @@ def model_of(robot_type: RobotType, headings: int) -> MotionModel:
 
 
 __all__ = [
+    "LATTICE_HEADINGS",
     "MODELS",
     "Curve",
     "Mode",
@@ -43,6 +45,7 @@ __all__ = [
     "forklift",
     "four_wheel",
     "holonomic",
+    "lattice_model",
     "model_of",
     "models_for",
 ]

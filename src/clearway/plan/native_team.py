@@ -1,6 +1,6 @@
 """A planning problem handed to the native core, and its answer read back."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from clearway import _core
 from clearway.model import (
@@ -23,11 +23,25 @@ from clearway.world.obstacles import native_body, native_obstacles
 COARSE_HEADINGS, FINE_HEADINGS = 16, 64
 
 
-class NativeTeam:
-    """Models and agents of a problem, in the problem's order."""
+def free_tables(robot_type: RobotType) -> tuple[MotionModel, MotionModel]:
+    """Return the model of a type at 16 headings, and that at 64 for a robot that is stuck."""
+    return model_of(robot_type, COARSE_HEADINGS), model_of(robot_type, FINE_HEADINGS)
 
-    def __init__(self, problem: Problem, bounds: Bounds) -> None:
+
+class NativeTeam:
+    """Models and agents of a problem, in the problem's order.
+
+    ``tables`` gives a type's motion model and its finer one.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        bounds: Bounds,
+        tables: Callable[[RobotType], tuple[MotionModel, MotionModel]] = free_tables,
+    ) -> None:
         self.problem = problem
+        self._tables = tables
         self.bounds = bounds
         used = {robot.type for robot in problem.robots}
         self.type_names = [name for name in problem.robot_types if name in used]
@@ -38,7 +52,7 @@ class NativeTeam:
         self.agents = [self._agent(i) for i in range(len(problem.robots))]
 
     def _model(self, robot_type: RobotType, reach: float) -> _core.Model:
-        self.motion[robot_type.name] = model_of(robot_type, COARSE_HEADINGS)
+        self.motion[robot_type.name], fine = self._tables(robot_type)
         site = self.problem.site
         changes = robot_type.loaded_footprint is not None or any(o.blocks for o in site.obstacles)
         states = (False, True) if changes else (False,)
@@ -50,7 +64,7 @@ class NativeTeam:
             [native_body(robot_type.shape(loaded)) for loaded in states],
             statics,
             native_table(self.motion[robot_type.name]),
-            native_table(model_of(robot_type, FINE_HEADINGS)),
+            native_table(fine),
             robot_type.clearance,
         )
 

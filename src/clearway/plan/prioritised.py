@@ -32,32 +32,7 @@ class PrioritisedPlanner:
 
     def unsupported(self, problem: Problem) -> tuple[str, ...]:
         """Return what in the problem this planner cannot take."""
-        reasons = []
-        for name in {robot.type for robot in problem.robots}:
-            robot_type = problem.robot_types[name]
-            known = models_for(robot_type.kinematics)
-            if robot_type.motion not in (None, *known):
-                reasons.append(
-                    f"robot type {name}: {robot_type.motion} is no motion model of "
-                    f"{robot_type.kinematics} robots; known: {', '.join(known)}"
-                )
-            if robot_type.limits.acceleration or robot_type.limits.deceleration:
-                reasons.append(
-                    f"robot type {name}: acceleration limits are not planned for; remove them"
-                )
-        for robot in problem.robots:
-            limits = problem.robot_types[robot.type].limits
-            if robot.start_speed and (limits.acceleration or limits.deceleration):
-                reasons.append(
-                    f"robot {robot.id}: a start in motion is not planned for where acceleration "
-                    "is limited"
-                )
-            for visit in problem.tours.get(robot.id, ()):
-                if visit.together:
-                    reasons.append(
-                        f"robot {robot.id}, task {visit.task}: visits together are not planned for"
-                    )
-        return tuple(sorted(reasons))
+        return unplannable(problem)
 
     def __call__(
         self,
@@ -100,7 +75,7 @@ class PrioritisedPlanner:
             conflict_free_until=None
             if answer.conflict_free_until >= _core.NEVER
             else to_seconds(answer.conflict_free_until),
-            assignment={robot.id: _tasks_in_order(problem, robot.id) for robot in problem.robots},
+            assignment={robot.id: tasks_in_order(problem, robot.id) for robot in problem.robots},
             lower_bound=bounds.seconds,
             cost_lower_bound=bounds.metres,
             counters={
@@ -117,6 +92,36 @@ class PrioritisedPlanner:
         )
 
 
+def unplannable(problem: Problem) -> tuple[str, ...]:
+    """Return what in a problem no planner here can take."""
+    reasons = []
+    for name in {robot.type for robot in problem.robots}:
+        robot_type = problem.robot_types[name]
+        known = models_for(robot_type.kinematics)
+        if robot_type.motion not in (None, *known):
+            reasons.append(
+                f"robot type {name}: {robot_type.motion} is no motion model of "
+                f"{robot_type.kinematics} robots; known: {', '.join(known)}"
+            )
+        if robot_type.limits.acceleration or robot_type.limits.deceleration:
+            reasons.append(
+                f"robot type {name}: acceleration limits are not planned for; remove them"
+            )
+    for robot in problem.robots:
+        limits = problem.robot_types[robot.type].limits
+        if robot.start_speed and (limits.acceleration or limits.deceleration):
+            reasons.append(
+                f"robot {robot.id}: a start in motion is not planned for where acceleration "
+                "is limited"
+            )
+        for visit in problem.tours.get(robot.id, ()):
+            if visit.together:
+                reasons.append(
+                    f"robot {robot.id}, task {visit.task}: visits together are not planned for"
+                )
+    return tuple(sorted(reasons))
+
+
 def _with_bound(
     progress: Progress | None, bound: float
 ) -> Callable[[int, int, int, float | None], None] | None:
@@ -127,12 +132,13 @@ def _with_bound(
     )
 
 
-def _tasks_in_order(problem: Problem, robot: str) -> tuple[str, ...]:
+def tasks_in_order(problem: Problem, robot: str) -> tuple[str, ...]:
+    """Return the tasks of a robot in the order of their first visits."""
     tasks = (visit.task for visit in problem.tours.get(robot, ()))
     return tuple(dict.fromkeys(task for task in tasks if task is not None))
 
 
-def _walled_in(problem: Problem, robot_id: str) -> bool:
+def walled_in(problem: Problem, robot_id: str) -> bool:
     """Whether even the inscribed circle of the body has no way through the robot's tour."""
     from clearway.world.reach import BodyReach
 
@@ -154,6 +160,14 @@ def _walled_in(problem: Problem, robot_id: str) -> bool:
     return False
 
 
+def walled_in_reason(robots: tuple[str, ...]) -> str:
+    """Return the sentence for robots that are walled in."""
+    return (
+        f"{', '.join(robots)} is walled in: with nobody else on the site there is no way even for "
+        "the largest disc inside its body"
+    )
+
+
 def _verdict(
     problem: Problem, answer: _core.TeamAnswer, concerned: tuple[str, ...], params: TeamParams
 ) -> tuple[Status, str | None]:
@@ -163,11 +177,8 @@ def _verdict(
     if answer.interrupted:
         return Status.STOPPED, f"interrupted; not planned: {names}"
     if answer.status == _core.TeamStatus.STUCK:
-        if any(_walled_in(problem, robot) for robot in concerned):
-            return Status.INFEASIBLE, (
-                f"{names} is walled in: with nobody else on the site there is no way even for "
-                "the largest disc inside its body"
-            )
+        if any(walled_in(problem, robot) for robot in concerned):
+            return Status.INFEASIBLE, walled_in_reason(concerned)
         return Status.STOPPED, (
             f"no plan on this lattice for {names}, alone on the site and with 64 headings; "
             "widen the passage or move the goal"

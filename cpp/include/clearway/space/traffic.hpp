@@ -20,6 +20,9 @@ struct TimedPiece {
   int body = 0;  // index into the robot's bodies: 0 empty, 1 loaded
 };
 
+// Append a piece; one that goes on as the last one did becomes part of it.
+void join(std::vector<TimedPiece>& pieces, const TimedPiece& next);
+
 // How a body moves under a constant twist: the velocity of its bounding circle's centre in the
 // body frame and its amount (m per tick), and how fast it turns (rad per tick).
 struct Rate {
@@ -103,6 +106,18 @@ struct Mover {
   Circle around() const;
 };
 
+// First tick within [begin, end] at which a mover's gap to a track falls below `required`, or a
+// negative value; with `any`, any such tick will do, which is found sooner. `last_clear` becomes
+// the last tick known to be clear before that.
+template <bool any>
+double meeting(const Track& track, Ticks begin, Ticks end, const Mover& mover, double required,
+               double* last_clear = nullptr);
+
+// First tick from `from` on at which a body at rest is clear of a track it now conflicts with;
+// one later than `limit` may be returned as soon as it is known to be.
+Ticks clear_after(const Track& track, const Body& body, const Frame& at, Ticks from,
+                  double required, Ticks limit = kNever);
+
 class Traffic {
  public:
   struct Presence {
@@ -134,27 +149,21 @@ class Traffic {
     return dx * dx + dy * dy > apart * apart;
   }
 
-  // First tick at which the mover's gap to a track falls below `required`, or a negative value.
-  // `last_clear` becomes the last tick known to be clear before that.
+  // See meeting().
   double first_conflict(const Presence& who, const Mover& mover, double required,
                         double* last_clear = nullptr) const {
-    return find_conflict<false>(who, mover, required, last_clear);
+    return meeting<false>(track(who.track), who.begin, who.end, mover, required, last_clear);
   }
-
-  // Likewise, but any such tick will do, which is found sooner.
   double any_conflict(const Presence& who, const Mover& mover, double required) const {
-    return find_conflict<true>(who, mover, required, nullptr);
+    return meeting<true>(track(who.track), who.begin, who.end, mover, required);
   }
-
-  // First tick from `from` on at which a body at rest is clear of a track it now conflicts with;
-  // one later than `limit` may be returned as soon as it is known to be.
-  Ticks clear_after(int track, const Body& body, const Frame& at, Ticks from, double required,
-                    Ticks limit = kNever) const;
+  Ticks clear_after(int id, const Body& body, const Frame& at, Ticks from, double required,
+                    Ticks limit = kNever) const {
+    return clearway::clear_after(track(id), body, at, from, required, limit);
+  }
+  const Track& track(int id) const { return *tracks_[static_cast<std::size_t>(id)]; }
 
  private:
-  template <bool any>
-  double find_conflict(const Presence& who, const Mover& mover, double required,
-                       double* last_clear) const;
   std::size_t tile(double x, double y) const;
 
   Box box_;
