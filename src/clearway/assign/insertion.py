@@ -17,6 +17,7 @@ from clearway.assign.neighbourhoods import (
     reverse,
     swap,
 )
+from clearway.assign.refusals import timed
 from clearway.assign.split import even_seats, reseat, unseated
 from clearway.protocols import AssignmentProblem, Routes
 
@@ -119,8 +120,9 @@ class InsertionLocalSearch:
         return tuple(map(tuple, best.routes))
 
     def unsupported(self, problem: AssignmentProblem) -> tuple[str, ...]:
-        """Return why there is no even split, if one is asked for."""
-        return unseated(problem, even_seats(problem)) if self.params.even else ()
+        """Return why time cannot be heeded, and why there is no even split if one is asked for."""
+        seated = unseated(problem, even_seats(problem)) if self.params.even else ()
+        return timed(problem) + seated
 
     def _descend(self, view: View) -> View:
         """Take improving moves until there is none or the evaluations are used up."""

@@ -4,6 +4,7 @@ from itertools import accumulate, pairwise
 
 import numpy as np
 
+from clearway.assign.refusals import timed
 from clearway.assign.split import even_seats, reseat, unseated
 from clearway.protocols import AssignmentProblem, Routes
 
@@ -33,6 +34,9 @@ class RandomAssigner:
 
     def __call__(self, problem: AssignmentProblem, seed: int) -> Routes:
         """Return one route per robot; the same seed gives the same routes."""
+        reasons = self.unsupported(problem)
+        if reasons:
+            raise ValueError(reasons[0])
         rng = np.random.default_rng(seed)
         m = len(problem.robots)
         order = [int(task) for task in rng.permutation(len(problem.tasks))]
@@ -48,10 +52,10 @@ class RandomAssigner:
         routes = reseat(
             problem, [order[first:last] for first, last in pairwise(cuts)], even_seats(problem)
         )
-        if routes is None:
-            raise ValueError(self.unsupported(problem)[0])
+        assert routes is not None
         return routes
 
     def unsupported(self, problem: AssignmentProblem) -> tuple[str, ...]:
-        """Return why there is no even split, if there is none."""
-        return unseated(problem, even_seats(problem)) if self.even else ()
+        """Return why time cannot be heeded, and why there is no even split if there is none."""
+        seated = unseated(problem, even_seats(problem)) if self.even else ()
+        return timed(problem) + seated
