@@ -5,14 +5,34 @@ import math
 import numpy as np
 import pytest
 
-from clearway.assign import InsertionLocalSearch, InsertionParams, RandomAssigner
+from clearway.assign import (
+    LITERAL,
+    Apsga,
+    ApsgaParams,
+    Ga,
+    GaParams,
+    InsertionLocalSearch,
+    InsertionParams,
+    Psga,
+    PsgaParams,
+    Pso,
+    PsoParams,
+    RandomAssigner,
+    SwarmParams,
+)
 from clearway.protocols import AssignmentProblem, check_routes, objective
 
+SWARM = SwarmParams(particles=6, iterations=5)
 ASSIGNERS = {
     "random, even": RandomAssigner(),
     "random, free": RandomAssigner(even=False),
     "insertion, even": InsertionLocalSearch(InsertionParams(rounds=5, even=True)),
     "insertion, free": InsertionLocalSearch(InsertionParams(rounds=5)),
+    "pso": Pso(PsoParams(SWARM)),
+    "ga": Ga(GaParams(individuals=6, generations=5)),
+    "psga": Psga(PsgaParams(SWARM)),
+    "apsga": Apsga(ApsgaParams(SWARM)),
+    "apsga, literal": Apsga(ApsgaParams(SWARM, LITERAL)),
 }
 
 
@@ -21,7 +41,7 @@ def assign(request):
     return ASSIGNERS[request.param]
 
 
-def problem_of(m, n, seed=0, allowed=True):
+def problem_of(m, n, seed=0, allowed=True, **more):
     """Points in a square: robots start at some, tasks are at others."""
     rng = np.random.default_rng(seed)
     starts, tasks = rng.uniform(0.0, 30.0, (m, 2)), rng.uniform(0.0, 30.0, (n, 2))
@@ -33,7 +53,23 @@ def problem_of(m, n, seed=0, allowed=True):
         start_turn=rng.uniform(0.0, math.pi, (m, n)),
         task_turn=rng.uniform(0.0, math.pi, (n, n)),
         allowed=np.array(allowed),
+        **more,
     )
+
+
+def routes_or_refusal(assign, problem, seed=0):
+    """Return legal routes, or ``None`` where the problem is refused before and when called."""
+    reasons = assign.unsupported(problem)
+    assert isinstance(reasons, tuple)
+    if not reasons:
+        routes = assign(problem, seed)
+        objective(problem, routes)
+        return routes
+    assert all(reasons)
+    with pytest.raises(ValueError) as refusal:
+        assign(problem, seed)
+    assert str(refusal.value) in reasons
+    return None
 
 
 @pytest.mark.parametrize(("m", "n"), [(4, 12), (3, 10), (1, 5), (5, 2), (3, 0), (1, 1)])
@@ -60,23 +96,25 @@ def test_robots_do_only_what_they_may(assign, seed):
     rng = np.random.default_rng(seed)
     allowed = rng.random((3, 6)) < 0.5
     allowed[rng.integers(3, size=6), np.arange(6)] = True
-    problem = problem_of(3, 6, seed, allowed)
-    reasons = assign.unsupported(problem)
-    assert isinstance(reasons, tuple)
-    if reasons:
-        assert all(reasons)
-        with pytest.raises(ValueError, match="split"):
-            assign(problem, seed)
-    else:
-        check_routes(problem, assign(problem, seed))
+    routes_or_refusal(assign, problem_of(3, 6, seed, allowed), seed)
 
 
 def test_tasks_kept_for_robots_go_to_them(assign):
-    """With one robot allowed per task there is one way to share out."""
+    """With one robot allowed per task there is one way to share out, if any is offered."""
     owner = np.array([2, 0, 1, 1, 2, 0])
-    problem = problem_of(3, 6, allowed=owner == np.arange(3)[:, None])
-    routes = assign(problem, 4)
-    assert [sorted(route) for route in routes] == [[1, 5], [2, 3], [0, 4]]
+    routes = routes_or_refusal(assign, problem_of(3, 6, allowed=owner == np.arange(3)[:, None]), 4)
+    assert routes is None or [sorted(route) for route in routes] == [[1, 5], [2, 3], [0, 4]]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_tasks_wait_for_others_or_are_refused(assign, seed):
+    """Routes that wait for each other are worth nothing: precedence is kept to, or refused."""
+    routes_or_refusal(assign, problem_of(3, 6, seed, before=((5, 0), (4, 1), (3, 2))), seed)
+
+
+def test_due_times_are_taken_or_refused(assign):
+    """Whoever takes due times returns routes; whoever knows no time says so."""
+    routes_or_refusal(assign, problem_of(3, 6, due=np.full(6, 20.0)))
 
 
 def test_the_same_seed_gives_the_same_routes(assign):
@@ -91,7 +129,7 @@ def test_numbering_of_tasks_does_not_matter(assign):
     allowed = rng.random((3, 9)) < 0.8
     problem, other = problem_of(3, 9, 0, allowed), problem_of(3, 9, 0, allowed[:, order])
     assert bool(assign.unsupported(problem)) == bool(assign.unsupported(other))
-    check_routes(other, assign(other, 0))
+    routes_or_refusal(assign, other)
 
 
 def test_the_problem_is_left_as_it_was(assign):

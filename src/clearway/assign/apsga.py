@@ -77,7 +77,8 @@ class Apsga:
     ----------
     What the paper leaves open is chosen: parents are personal bests and a child must be
     better than the position it replaces (``ELITIST``); positions stay within [0, n - 1]; a
-    tenth of the children is mutated. Where the tasks do not divide by the robots, tasks of no
+    tenth of the children is mutated; what both fragments of a crossover cover is exchanged twice,
+    so not at all. Where the tasks do not divide by the robots, tasks of no
     cost make up the number.
     """
 

@@ -56,11 +56,14 @@ def repair(rng: np.random.Generator, values: Ints) -> Ints:
 
 
 def fragments(rng: np.random.Generator, count: int, length: int) -> Bools:
-    """Return two random index ranges for each of ``count`` pairs, as masks; they may overlap."""
+    """Return what two random index ranges cover for each of ``count`` pairs, as masks.
+
+    Ranges are exchanged one after the other, so what both cover is back where it was.
+    """
     ends = np.sort(rng.integers(length, size=(count, 2, 2)), axis=-1)
     index = np.arange(length)
     inside: Bools = (ends[..., :1] <= index) & (index <= ends[..., 1:])
-    return inside[:, 0] | inside[:, 1]
+    return inside[:, 0] ^ inside[:, 1]
 
 
 def exchange(first: Ints, second: Ints, mask: Bools) -> tuple[Ints, Ints]:

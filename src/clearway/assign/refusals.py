@@ -4,6 +4,8 @@ import numpy as np
 
 from clearway.protocols import AssignmentProblem
 
+ANY_PAIRS = "use InsertionLocalSearch, for an even split with InsertionParams(even=True)"
+
 
 def timed(problem: AssignmentProblem) -> tuple[str, ...]:
     """Return why an assigner that knows no time cannot take the problem."""
@@ -28,7 +30,7 @@ def choosy(problem: AssignmentProblem) -> tuple[str, ...]:
     if len(forbidden):
         robot, task = forbidden[0]
         what = f"robot {problem.robots[robot]} may not do task {problem.tasks[task]}"
-        return (f"{what}, but a permutation lets any robot do any: {_MEND}",)
+        return (f"{what}, but a permutation lets any robot do any: {ANY_PAIRS}",)
     apart = ~np.eye(len(problem.tasks), dtype=np.bool_)
     cut_off = np.argwhere(~np.isfinite(problem.task_to_task) & apart)
     if len(cut_off):
@@ -37,8 +39,5 @@ def choosy(problem: AssignmentProblem) -> tuple[str, ...]:
             f"robot {problem.robots[robot]} finds no way from task {problem.tasks[first]} "
             f"to task {problem.tasks[second]}"
         )
-        return (f"{what}, but a permutation puts tasks in any order: {_MEND}",)
+        return (f"{what}, but a permutation puts tasks in any order: {ANY_PAIRS}",)
     return ()
-
-
-_MEND = "use InsertionLocalSearch, for an even split with InsertionParams(even=True)"

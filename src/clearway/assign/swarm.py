@@ -83,9 +83,13 @@ def search(
         If the problem is not supported.
     """
     evaluation, rng = take(problem), np.random.default_rng(seed)
+
+    def price(population: Ints) -> Floats:
+        return evaluation(population).value
+
     positions = random_population(rng, params.particles, padded_length(problem))
     velocities = np.zeros(positions.shape)
-    value = evaluation(positions).value
+    value = price(positions)
     bests, least = positions, value
     history = [float(least.min())]
     for done in range(params.iterations):
@@ -94,11 +98,9 @@ def search(
         moved, velocities = fly(rng, params.flight, step, positions, velocities, bests, leader)
         positions = repair(rng, round_randomly(rng, moved))
         if breeding is None:
-            value = evaluation(positions).value
+            value = price(positions)
         else:
-            positions, value = breed(
-                rng, breeding, positions, bests, lambda them: evaluation(them).value
-            )
+            positions, value = breed(rng, breeding, positions, bests, price)
         is_better = value < least
         bests = np.where(is_better[:, None], positions, bests)
         least = np.where(is_better, value, least)
