@@ -39,6 +39,14 @@ def test_each_coordinate_is_drawn_by_a_random_share(pull):
     assert np.unique(share).size == share.size
 
 
+def test_both_bests_pull_by_shares_of_their_own():
+    """Equal pulls to opposite sides would cancel if they were drawn by the same share."""
+    c = Coefficients(inertia=0.0, cognitive=1.0, social=1.0)
+    leader = (2 * HERE - LEFT)[0]
+    _, velocities = step(FlightParams(), c, np.zeros(HERE.shape), LEFT, leader)
+    assert (np.abs(velocities) > 1e-3).all()
+
+
 def test_positions_stay_among_the_tasks():
     """However fast, a coordinate ends at the first or the last number."""
     for speed, end in ((100.0, 7.0), (-100.0, 0.0)):

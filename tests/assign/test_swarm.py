@@ -13,6 +13,7 @@ from clearway.assign import (
     Apsga,
     ApsgaParams,
     BreedingParams,
+    Coefficients,
     FlightParams,
     Ga,
     GaParams,
@@ -21,7 +22,10 @@ from clearway.assign import (
     Pso,
     PsoParams,
     SwarmParams,
+    swarm,
 )
+from clearway.assign.flight import fly
+from clearway.assign.permutation import decode
 from clearway.protocols import check_routes, objective
 
 SHORT = SwarmParams(iterations=60)
@@ -106,6 +110,30 @@ def test_a_trace_tells_how_the_routes_were_found(assign):
     assert trace.history[-1] == pytest.approx(trace.objective.value, rel=1e-12)
     assert trace.history[-1] < trace.history[0]
     assert assign(problem, 3) == trace.routes
+
+
+def test_the_best_leads_and_the_loop_tells_how_it_stands(monkeypatch):
+    """Four steps at 0, 1/4, 1/2 and 3/4 of the run, each behind the best found by then."""
+    problem = random_problem(2, m=4, n=12)
+    told, led = [], []
+
+    def coefficients(*state):
+        told.append(state)
+        return Coefficients()
+
+    def watched(rng, params, step, positions, velocities, bests, leader):
+        mean = np.mean([value(row) for row in positions])
+        led.append((value(leader), mean))
+        return fly(rng, params, step, positions, velocities, bests, leader)
+
+    def value(row):
+        return objective(problem, decode(row, 4, 12)).value
+
+    monkeypatch.setattr(swarm, "fly", watched)
+    trace = swarm.search(problem, 0, SwarmParams(iterations=4), coefficients)
+    assert [progress for progress, _, _ in told] == [0.0, 0.25, 0.5, 0.75]
+    assert [best for _, best, _ in told] == list(trace.history[:-1])
+    assert np.array(led) == pytest.approx(np.array(told)[:, 1:], rel=1e-12)
 
 
 def test_effort_is_counted():
