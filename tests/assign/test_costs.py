@@ -1,6 +1,7 @@
 """What a scenario's tasks cost its robots."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -222,3 +223,48 @@ def test_routes_become_visits_in_order():
     tours = tours_of(work, ((1, 0), ()))
     assert [visit.task for visit in tours["a"]] == ["t", "c", "c"]
     assert tours["b"] == ()
+
+
+def test_times_are_those_of_the_orders():
+    """Services add up over a task's visits; due times and what waits for what come along."""
+    twice = (Visit("t", Pose(1.5, 6.5, 0.0), 2.0), Visit("t", Pose(4.5, 6.5, 0.0), 3.0))
+    work = scenario([])
+    orders = (
+        Order(Task("t", twice), due=40.0),
+        Order(point_task("u", 3.5, 5.5), after=("t",)),
+    )
+    problem = build(replace(work, orders=orders))
+    assert problem.service.tolist() == [5.0, 0.0]
+    assert problem.due.tolist() == [40.0, math.inf]
+    assert problem.before == ((0, 1),)
+
+
+def test_a_robot_of_half_the_speed_has_ways_of_twice_the_length():
+    """4 m at 1 m/s take as long as 8 m at 2 m/s, the speed of the fastest in use."""
+    slow = kind("slim", 1.0)
+    fast = replace(slow, name="fast", limits=Limits(speed=2.0))
+    unused = replace(slow, name="unused", limits=Limits(speed=9.0))
+    robots = [Robot(n, n, Pose(2.5, 2.5, 0.0)) for n in ("slim", "fast")]
+    tasks = [point_task("t", 2.5, 6.5), point_task("u", 4.5, 6.5)]
+    problem = build(scenario(tasks, robots, [slow, fast, unused]))
+    assert problem.speed == 2.0
+    assert problem.start_to_task.tolist() == [[8.0, 12.0], [4.0, 6.0]]
+    assert problem.task_to_task[:, 0, 1].tolist() == [4.0, 2.0]
+
+
+def test_two_tasks_between_which_nobody_can_drive_are_named():
+    """With the load of ``fetch`` on board, no way leads under the shelf to ``look``."""
+    shelf = Obstacle(polygon=((5.0, 0.0), (6.0, 0.0), (6.0, 8.0), (5.0, 8.0)), blocks=("a:loaded",))
+    tasks = [point_task("fetch", 3.5, 2.5, load="pick"), point_task("look", 7.5, 2.5)]
+    robots = [Robot("a", "a", Pose(2.5, 2.5, 0.0))]
+    with pytest.raises(ValueError, match="from task fetch to task look"):
+        build(scenario(tasks, robots, [kind("a", 1.0)], obstacles=(shelf,)))
+
+
+def test_tasks_for_different_robots_need_no_way_between_them():
+    """Each robot has a side of the wall and a task there."""
+    wall = Obstacle(polygon=((5.0, 0.0), (6.0, 0.0), (6.0, 8.0), (5.0, 8.0)))
+    robots = [Robot("a", "slim", Pose(2.5, 2.5, 0.0)), Robot("b", "slim", Pose(9.5, 2.5, 0.0))]
+    tasks = [point_task("t", 2.5, 5.5), point_task("u", 9.5, 5.5)]
+    problem = build(scenario(tasks, robots, obstacles=(wall,)))
+    assert problem.allowed.tolist() == [[True, False], [False, True]]

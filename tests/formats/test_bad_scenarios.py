@@ -191,6 +191,10 @@ BAD = [
     ('["r2"]', '["r2", "r2"]', "tasks[0].visits[0].together[1]", "'r2'", "each other robot once"),
     ('needs = "lift"', 'needs = "lft"', "tasks[0].visits[0].needs", "'lft'", "'lift'?"),
     ("pose = [15, ", 'needs = "lift"\npose = [15, ', "tasks[1].needs", "'lift'", "capabilities"),
+    ("due = 100.0", 'after = ["t22"]', "tasks[0].after[0]", "'t22'", "did you mean 't2'?"),
+    ("due = 100.0", 'after = ["t1"]', "tasks[0].after[0]", "'t1'", "each other task once"),
+    ("due = 100.0", 'after = ["t2", "t2"]', "tasks[0].after[1]", "'t2'", "each other task once"),
+    ("due = 100.0", 'after = "t2"', "tasks[0].after", "'t2'", "brackets"),
     # work
     ('load = "pick", ', "", "tasks[0].visits[1].load", "'drop'", "load = 'pick' before"),
     ('load = "drop"', 'load = "pick"', "tasks[0].visits[1].load", "'pick'", "raise capacity"),
@@ -234,6 +238,14 @@ def test_message_names_file_key_value_and_mend(
     assert mend in message
     assert value in (f"{error.value!r}" if value else "")
     assert "\n" not in message
+
+
+def test_tasks_that_wait_for_each_other_are_told_in_their_circle() -> None:
+    """Nobody could begin: t1 waits for t2, which waits for t1."""
+    text = GOOD.replace("due = 100.0", 'after = ["t2"]')
+    text = text.replace("priority = 1.0", 'after = ["t1"]')
+    with pytest.raises(ScenarioError, match=r"each other: t1 after t2 after t1, got .*; drop one"):
+        parse_scenario(text)
 
 
 def test_the_good_file_is_good() -> None:

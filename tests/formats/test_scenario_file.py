@@ -67,6 +67,7 @@ station = "dock"
 needs = "fork"
 robot = "r1"
 due = 0.0
+after = ["t1"]
 [system]
 name = "forklift"
 horizon = 30
@@ -86,6 +87,7 @@ def test_every_spelling_is_understood() -> None:
     )
     assert second == Task("t2", (Visit("t2", dock, needs="fork"),), "r1")
     assert scenario.orders[1].due == 0.0
+    assert [order.after for order in scenario.orders] == [(), ("t1",)]
     kind = scenario.robot_types["lift"]
     assert len(kind.footprint.parts) == 2
     assert kind.shape(True) == Footprint(radius=2.5)
@@ -210,6 +212,7 @@ def scenarios(draw: st.DrawFn) -> Scenario:
         Zone(name, "station", draw(boxes()), draw(poses), draw(st.none() | metres))
         for name in draw(st.lists(names, max_size=2, unique=True))
     )
+    tasks = draw(st.lists(names, max_size=3, unique=True))
     orders = tuple(
         Order(
             Task(
@@ -223,8 +226,9 @@ def scenarios(draw: st.DrawFn) -> Scenario:
             draw(seconds),
             draw(st.none() | st.floats(1e6, 1e7)),
             draw(metres),
+            tuple(tasks[:i][:2]),
         )
-        for name in draw(st.lists(names, max_size=3, unique=True))
+        for i, name in enumerate(tasks)
     )
     values = st.one_of(st.text(max_size=5), st.integers(-9, 9), metres, st.booleans())
     return Scenario(

@@ -23,18 +23,22 @@ def build(scenario: Scenario, weights: Weights = EQUAL_WEIGHTS) -> AssignmentPro
 
     Distances are shortest paths over 1 m cells that keep half the body's width from
     obstacles, for each robot type and load state; where these leave a task without a way,
-    over finer cells. Turns are differences of heading.
+    over finer cells. They are those of the fastest type; slower ones have longer ways, which
+    take it as long. Turns are differences of heading. Release times are left to planning.
 
     Raises
     ------
     ValueError
-        If no robot can do some task; the message says what keeps each robot from it.
+        If no robot can do some task, or go from one task to another that it may both do; the
+        message names them and says what keeps each robot from it.
     """
     tasks = [order.task for order in scenario.orders]
     firsts = [task.visits[0].pose for task in tasks]
     lasts = [task.visits[-1].pose for task in tasks]
     starts = [robot.start for robot in scenario.robots]
     m, n = len(starts), len(tasks)
+    speeds = {robot.type: scenario.type_of(robot).limits.speed for robot in scenario.robots}
+    fastest = max(speeds.values(), default=1.0)
     start, between, inner = np.zeros((m, n)), np.zeros((m, n, n)), np.zeros((m, n))
     for name in sorted({robot.type for robot in scenario.robots}):
         like = [k for k, robot in enumerate(scenario.robots) if robot.type == name]
@@ -42,8 +46,13 @@ def build(scenario: Scenario, weights: Weights = EQUAL_WEIGHTS) -> AssignmentPro
             start[like], between[like], inner[like] = _distances(
                 scenario, name, [starts[k] for k in like], tasks, cell, relief
             )
-            if np.isfinite(start[like]).all() and np.isfinite(inner[like]).all():
+            if all(np.isfinite(ways[like]).all() for ways in (start, between, inner)):
                 break
+        for ways in (start, between, inner):
+            ways[like] *= fastest / speeds[name]
+    allowed = _allowed(scenario, tasks, start, inner)
+    _refuse_dead_ends(tasks, allowed, between)
+    number = {task.id: j for j, task in enumerate(tasks)}
     return AssignmentProblem(
         robots=tuple(robot.id for robot in scenario.robots),
         tasks=tuple(task.id for task in tasks),
@@ -52,8 +61,14 @@ def build(scenario: Scenario, weights: Weights = EQUAL_WEIGHTS) -> AssignmentPro
         start_turn=_turns(starts, firsts),
         task_turn=_turns(lasts, firsts),
         inner=inner,
-        allowed=_allowed(scenario, tasks, start, inner),
+        allowed=allowed,
         weights=weights,
+        speed=fastest,
+        service=np.array([sum(visit.service for visit in task.visits) for task in tasks]),
+        due=np.array([np.inf if o.due is None else o.due for o in scenario.orders]),
+        before=tuple(
+            (number[other], j) for j, order in enumerate(scenario.orders) for other in order.after
+        ),
     )
 
 
@@ -119,6 +134,22 @@ def _allowed(
             told = "; ".join(refusals) or "there are no robots"
             raise ValueError(f"no robot can do task {task.id}: {told}")
     return allowed
+
+
+def _refuse_dead_ends(tasks: Sequence[Task], allowed: NDArray[np.bool_], between: Floats) -> None:
+    """Refuse two tasks that some robots may do, but none the one after the other."""
+    may = np.zeros((len(tasks), len(tasks)), dtype=np.bool_)
+    can = np.eye(len(tasks), dtype=np.bool_)
+    for ours, ways in zip(allowed, between, strict=True):
+        both = ours[:, None] & ours[None, :]
+        may |= both
+        can |= both & np.isfinite(ways)
+    for i, j in np.argwhere(may & ~can):
+        first, second = tasks[i].id, tasks[j].id
+        raise ValueError(
+            f"no robot finds a way from task {first} to task {second}, though each alone is "
+            f"reachable; widen the passage, or keep the tasks for different robots"
+        )
 
 
 def _refusal(

@@ -47,7 +47,7 @@ def _kept(scenario: Scenario) -> dict[str, tuple[Visit, ...]] | None:
     for order in scenario.orders:
         if order.task.robot is None or tours[order.task.robot]:
             return None
-        tours[order.task.robot] = order.task.visits
+        tours[order.task.robot] = order.visits
     return tours
 
 

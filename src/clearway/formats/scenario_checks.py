@@ -13,6 +13,7 @@ from clearway.formats.scenario_models import (
 )
 from clearway.model import LOAD_CHANGE
 from clearway.model.robot import FOUR_WHEEL_MODES
+from clearway.protocols import find_circle
 
 
 def find_problems(table: ScenarioTable) -> list[Problem]:
@@ -25,6 +26,7 @@ def find_problems(table: ScenarioTable) -> list[Problem]:
         *_blocks(table.site, table),
         *_fleet(table),
         *_work(table),
+        *_order_of_tasks(table.tasks),
     ]
 
 
@@ -91,6 +93,27 @@ def _work(table: ScenarioTable) -> Iterator[Problem]:
                 )
             yield from _together(visit, task, at, robots)
         yield from _able(table, task, where, robots)
+
+
+def _order_of_tasks(tasks: list[TaskTable]) -> Iterator[Problem]:
+    """Check that tasks wait for other tasks, and never in a circle."""
+    numbers = {task.id: i for i, task in enumerate(tasks)}
+    waits: list[tuple[int, int]] = []
+    for i, task in enumerate(tasks):
+        for k, other in enumerate(task.after):
+            key = f"tasks[{i}].after[{k}]"
+            if other not in numbers:
+                yield Problem(key, other, "unknown task", closest(other, numbers))
+            elif other == task.id or other in task.after[:k]:
+                what = "a task does not wait for itself" if other == task.id else "named twice"
+                yield Problem(key, other, what, "name each other task once")
+            else:
+                waits.append((i, numbers[other]))
+    if circle := find_circle(waits):
+        told = " after ".join(tasks[i].id for i in (*circle, circle[0]))
+        first = tasks[circle[0]]
+        what = f"tasks wait for each other: {told}"
+        yield Problem(f"tasks[{circle[0]}].after", first.after, what, "drop one of these")
 
 
 def _together(

@@ -79,7 +79,7 @@ def _order(order: Order) -> dict[str, Any]:
         **(visits[0] if len(visits) == 1 else {"visits": visits}),
         **_given(robot=order.task.robot, release=order.release),
         **({} if order.due is None else {"due": order.due}),
-        **_given(priority=order.priority),
+        **_given(priority=order.priority, after=order.after),
     }
 
 

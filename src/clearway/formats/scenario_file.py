@@ -191,6 +191,7 @@ def _scenario(table: ScenarioTable) -> Scenario:
                 t.release,
                 t.due,
                 t.priority,
+                tuple(t.after),
             )
             for t in table.tasks
         ),

@@ -254,6 +254,11 @@ class TaskTable(Table):
     release: Seconds = Field(default=0.0, description="Not before (s).")
     due: Seconds | None = Field(default=None, description="To be done by (s).")
     priority: float = Field(default=0.0, description="Larger is more urgent.")
+    after: list[str] = Field(
+        default=[],
+        description="Ids of tasks that must be finished before its first visit is served.",
+        examples=[["t1"]],
+    )
 
     @model_validator(mode="after")
     def _check(self) -> "TaskTable":

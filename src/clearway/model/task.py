@@ -1,7 +1,7 @@
 """Work: visits, tasks and orders."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from clearway.model.pose import Pose, check_pose
@@ -28,6 +28,13 @@ class Visit:
         Capability that the robot must have.
     together
         Robots that must stand at their own poses in the same service interval.
+    not_before
+        Second from 0 on before which the service does not begin; a robot that comes sooner
+        waits, there or elsewhere.
+    after
+        Ids of tasks, whoever does them, that must be finished before the service begins.
+    due
+        Second by which the service should have ended; only told, never demanded.
     """
 
     task: str | None
@@ -36,11 +43,16 @@ class Visit:
     load: Load | None = None
     needs: str | None = None
     together: tuple[str, ...] = ()
+    not_before: float = 0.0
+    after: tuple[str, ...] = ()
+    due: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "pose", check_pose(self.pose, "pose of a visit"))
-        if not (math.isfinite(self.service) and self.service >= 0.0):
-            raise ValueError(f"service must be 0 or above and finite, got {self.service}")
+        for name in ("service", "not_before", "due"):
+            value = getattr(self, name)
+            if value is not None and not (math.isfinite(value) and value >= 0.0):
+                raise ValueError(f"{name} must be 0 or above and finite, got {value}")
         if self.load not in (None, "pick", "drop"):
             raise ValueError(f"load must be 'pick' or 'drop', got {self.load!r}")
 
@@ -60,9 +72,23 @@ class Task:
 
 @dataclass(frozen=True)
 class Order:
-    """A task with its release and due times (s) and its priority (larger is more urgent)."""
+    """A task with its release and due times (s) and its priority (larger is more urgent).
+
+    ``after`` are ids of tasks that must be finished before this one's first visit is served.
+    """
 
     task: Task
     release: float = 0.0
     due: float | None = None
     priority: float = 0.0
+    after: tuple[str, ...] = ()
+
+    @property
+    def visits(self) -> tuple[Visit, ...]:
+        """Visits of the task; the first one waits as the order does, the last one is due."""
+        first, *rest = self.task.visits
+        begin = max(first.not_before, self.release)
+        visits = [replace(first, not_before=begin, after=(*first.after, *self.after)), *rest]
+        if self.due is not None:
+            visits[-1] = replace(visits[-1], due=self.due)
+        return tuple(visits)

@@ -30,6 +30,8 @@ class HierarchicalSettings:
         Give every robot the same number of tasks, as the paper's encoding does.
     max_distance, total_distance, turning
         Weights of objective A-4 (eq. 2): longest route, all routes (per m), turns (per rad).
+    tardiness
+        Weight of each second that a task is finished after it is due; not in the paper.
     park
         Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
     objective
@@ -44,12 +46,13 @@ class HierarchicalSettings:
     max_distance: float = 1.0
     total_distance: float = 1.0
     turning: float = 1.0
+    tardiness: float = 1.0
     park: Literal["blocking", "always", "never"] = "blocking"
     objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
 
     def __post_init__(self) -> None:
-        for name in ("max_distance", "total_distance", "turning"):
+        for name in ("max_distance", "total_distance", "turning", "tardiness"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise SettingsError(f"system.{name}", getattr(self, name), "write 0 or above")
         if not (math.isfinite(self.weight) and self.weight > 0.0):
@@ -79,6 +82,8 @@ def hierarchical(settings: HierarchicalSettings) -> System:
         assign=assigners[settings.assign],
         own_tasks=own_tasks,
         plan=PrioritisedPlanner(params),
-        weights=Weights(settings.max_distance, settings.total_distance, settings.turning),
+        weights=Weights(
+            settings.max_distance, settings.total_distance, settings.turning, settings.tardiness
+        ),
         parameters=asdict(settings),
     )
