@@ -108,10 +108,10 @@ void bind_prioritised(nb::module_& m) {
   nb::class_<Leg>(m, "Leg", "Drive to a goal, then stand there.")
       .def(
           "__init__",
-          [](Leg* self, const Pose& goal, Ticks service, int body) {
-            new (self) Leg{goal, service, body, 0.0};
+          [](Leg* self, const Pose& goal, Ticks service, int body, Ticks not_before) {
+            new (self) Leg{goal, service, body, 0.0, not_before};
           },
-          "goal"_a, "service"_a, "body"_a);
+          "goal"_a, "service"_a, "body"_a, "not_before"_a = 0);
   nb::class_<Model>(m, "Model", "What all robots of one type share.")
       .def(
           "__init__",

@@ -82,7 +82,7 @@ void check_tour(const Errand& e, const TourResult& tour) {
   for (std::size_t i = 0; i < e.legs.size(); ++i) {
     const TourStop& stop = tour.stops[i];
     CHECK(stop.leg == static_cast<int>(i));
-    CHECK(stop.arrive >= left);
+    CHECK(stop.arrive >= std::max(left, e.legs[i].not_before));
     CHECK(stop.leave == stop.arrive + e.legs[i].service);
     for (const Ticks when : {stop.arrive, stop.leave}) {
       const Pose there = pose_at(e.start, tour.pieces, when);
@@ -92,7 +92,7 @@ void check_tour(const Errand& e, const TourResult& tour) {
     }
     left = stop.leave;
   }
-  CHECK(tour.arrival == tour.stops.back().arrive);
+  CHECK(std::max(tour.arrival, e.legs.back().not_before) == tour.stops.back().arrive);
 }
 
 void check_apart(const Errand& e, const TourResult& tour, const std::vector<int>& spared = {}) {
@@ -254,6 +254,60 @@ TEST_CASE("A service that somebody would drive into is begun after he has passed
   check_tour(e, brief);
   check_apart(e, brief);
   CHECK(brief.stops[0].leave < 24200);
+}
+
+TEST_CASE("Who comes too early waits at the visit, and looks for no other way meanwhile") {
+  // It is there after 9 s, is served from 60 s on, and drives 8 m more in 8 s.
+  Errand e = errand(rectangle(1.0, 0.6), hall(20, 12), {1, 6, 0},
+                    {{{10, 6, 0}, 2000, 0, 0.0, 60000}, {{18, 6, 0}, 0, 0, 0.0}});
+  const TourResult tour = e.run();
+  check_tour(e, tour);
+  CHECK(tour.stops[0].arrive == 60000);
+  CHECK(tour.arrival == 70000);
+  CHECK(tour.cost == doctest::Approx(70000));
+  CHECK(e.trace.size() < 10);
+  // The first of three visits need not be hurried to either: 2 m before, 2 m after.
+  e.legs.insert(e.legs.begin(), {{3, 6, 0}, 0, 0, 0.0});
+  const TourResult longer = e.run();
+  check_tour(e, longer);
+  CHECK(longer.arrival == 70000);
+  CHECK(e.trace.size() < 10);
+}
+
+TEST_CASE("Where somebody passes, nobody waits for the time of his visit") {
+  // The crosser is at the visit from 24.2 s to 25.8 s; that is served from 40 s on.
+  Errand e = errand(rectangle(1.0, 0.6), hall(20, 12), {1, 6, 0},
+                    {{{10, 6, 0}, 1000, 0, 0.0, 40000}, {{18, 6, 0}, 0, 0, 0.0}});
+  e.others = {track({10, 1, kPi / 2}, {wait(0, 20000, {10, 1, kPi / 2}),
+                                       drive(20000, 30000, {10, 1, kPi / 2}, {10, 0, 0})})};
+  const TourResult tour = e.run();
+  check_tour(e, tour);
+  check_apart(e, tour);
+  CHECK(tour.stops[0].arrive == 40000);
+  CHECK(tour.arrival == 49000);
+}
+
+TEST_CASE("A final rest is not later for a service that is") {
+  for (const bool time : {true, false}) {
+    Errand e =
+        errand(rectangle(1.0, 0.6), hall(20, 12), {1, 6, 0}, {{{10, 6, 0}, 1000, 0, 0.0, 40000}});
+    e.objective.time = time;
+    const TourResult tour = e.run();
+    check_tour(e, tour);
+    CHECK(tour.arrival == 9000);
+    CHECK(tour.stops[0].arrive == 40000);
+    CHECK(tour.cost == doctest::Approx(time ? 10000 : 9));
+  }
+}
+
+TEST_CASE("Waiting for a visit costs what waiting costs") {
+  // 17 m, and 0.1 for each of the 51 s at the visit.
+  Errand e = errand(rectangle(1.0, 0.6), hall(20, 12), {1, 6, 0},
+                    {{{10, 6, 0}, 2000, 0, 0.0, 60000}, {{18, 6, 0}, 0, 0, 0.0}});
+  e.objective.time = false;
+  const TourResult tour = e.run();
+  check_tour(e, tour);
+  CHECK(tour.cost == doctest::Approx(17 + 5.1));
 }
 
 TEST_CASE("In a lane behind a slower robot one follows") {

@@ -361,7 +361,7 @@ class TimedPiece:
 class Leg:
     """Drive to a goal, then stand there."""
 
-    def __init__(self, goal: Pose, service: int, body: int) -> None: ...
+    def __init__(self, goal: Pose, service: int, body: int, not_before: int = 0) -> None: ...
 
 class Model:
     """What all robots of one type share."""

@@ -89,6 +89,27 @@ def test_several_visits_are_made_in_order_each_for_its_service(solve):
     assert plan.assignment["a"] == ("a 9/1", "a 1/5", "a 5/3")
 
 
+def test_no_service_begins_before_its_time(solve):
+    """8 m and 4 m at 1 m/s; between them the robot waits until 30 s, and after them it rests."""
+    early, late = to(9.0, 1.0, EAST, 2.0), to(5.0, 1.0, EAST, 1.0)
+    visits = replace(early, not_before=30.0), replace(late, not_before=50.0)
+    plan = solve(team(room(10.0, 6.0), (CART, (1.0, 1.0, EAST), *visits)))
+    first, last = plan.trajectories["a"].stops
+    assert (first.arrive, first.leave) == (30_000, 32_000)
+    assert (last.arrive, last.leave) == (50_000, 51_000)
+    assert to_ticks(36.0) <= plan.trajectories["a"].end <= to_ticks(37.0)
+
+
+def test_nobody_waits_for_its_time_where_another_must_pass(solve):
+    """In a lane of one body, a could be at its visit long before b has left the lane by it."""
+    hall = Site(((0, 0), (16, 0), (16, 1), (10, 1), (10, 4), (6, 4), (6, 1), (0, 1)))
+    wait = replace(to(12.0, 0.5, EAST), not_before=60.0)
+    plan = solve(
+        team(hall, (CART, (1.0, 0.5, EAST), wait), (CART, (14.5, 0.5, EAST), to(1.0, 0.5, EAST)))
+    )
+    assert plan.trajectories["a"].stops[0].arrive == 60_000
+
+
 def test_a_task_of_two_visits_is_assigned_once(solve):
     """Tasks count in the order of their first visit, and parking belongs to none."""
     visits = [

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -104,6 +105,22 @@ def test_without_a_bound_there_is_no_gap():
     """A gap compares with a bound; a bound of none, or of nothing, compares with nothing."""
     assert plan_metrics(small_record(lower_bound=None), [], 0).gap is None
     assert plan_metrics(small_record(lower_bound=0.0), [], 0).gap is None
+
+
+def test_tasks_finished_after_they_are_due_are_late():
+    """``one`` is finished at 7 s, 2 s late; ``two`` at 17 s, in time; nothing due, nothing told."""
+    visits = (Visit("one", Pose(5, 1, 0), 3.0, due=5.0), Visit("two", Pose(5, 3, PI / 2), 5.0))
+    for later, late in ((None, 2.0), (18.0, 2.0), (16.5, 2.5)):
+        record = small_record(tours={"a": (visits[0], replace(visits[1], due=later))})
+        assert plan_metrics(record, [], 0).tardiness == pytest.approx(late)
+    assert plan_metrics(small_record(), [], 0).tardiness is None
+
+
+def test_a_visit_begins_no_sooner_than_it_may():
+    """Standing there from 4 s to 8 s, ``one`` takes from 4.5 s to 7.5 s if it must wait so long."""
+    visit = Visit("one", Pose(5, 1, 0), 3.0, not_before=4.5)
+    record = small_record(tours={"a": (visit,)})
+    assert [(m.arrive, m.leave) for m in visit_times(record, record.robots[0])] == [(4.5, 7.5)]
 
 
 def test_the_closest_pair_comes_first():

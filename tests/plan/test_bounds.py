@@ -31,6 +31,13 @@ def test_service_counts_but_for_the_last():
     assert bound(*visits).seconds == pytest.approx(11.0)
 
 
+def test_waiting_for_a_visit_counts_but_for_the_last():
+    """4 m, until 10 s at the first visit, its 3 s, and 4 m; what comes later than 10 s waits not."""
+    first, last = to(5.0, 1.0, EAST, 3.0), replace(to(9.0, 1.0, EAST), not_before=60.0)
+    assert bound(replace(first, not_before=10.0), last).seconds == pytest.approx(17.0)
+    assert bound(replace(first, not_before=4.0), last).seconds == pytest.approx(11.0)
+
+
 def test_who_drives_faster_backwards_is_bound_by_that():
     """A bound that took the speed ahead would be above what reversing costs."""
     limits = Limits(speed=1.0, reverse_speed=2.0)

@@ -121,3 +121,34 @@ def test_one_thing_wrong_is_said_in_a_sentence(by_hand: ModuleType) -> None:
         "visit a at 2.000 s, (10.000, 5.011): visit 1 (task t1) is not made: "
         "never within 1 cm and 1 degree of its pose"
     )
+
+
+def test_a_visit_is_made_once_the_task_that_it_waits_for_is_finished(by_hand: ModuleType) -> None:
+    """b stands there from 1 s on; t1 is finished at 5 s, so t2 takes from 5 s to 6 s."""
+    _, schedule = _motions(by_hand.in_turn(6.0))
+    [(begin, end)] = [(service.begin, service.end) for service in schedule["b"]]
+    assert (begin, end) == (pytest.approx(5.0), pytest.approx(6.0))
+
+
+def test_a_chain_of_tasks_is_followed_to_its_end(by_hand: ModuleType) -> None:
+    """Each of three carts serves 2 s, the next one after it; the last one may go at 6 s."""
+    names = ("a", "b", "c")
+    tours = {
+        name: (Visit(name, Pose(2.0, 2.0 + 2 * i, 0.0), 2.0, after=tuple(names[:i][-1:])),)
+        for i, name in enumerate(names)
+    }
+    for stay, found in ((6.0, []), (5.9, ["after"])):
+        trips = [
+            by_hand.journey(name, tours[name][0].pose, stay, by_hand.ahead(1.0)) for name in names
+        ]
+        assert kinds(by_hand.plan([by_hand.CART] * 3, trips, tours)) == found
+
+
+def test_tasks_that_wait_for_each_other_are_never_made(by_hand: ModuleType) -> None:
+    """Both carts stand at their poses for ever, and neither may begin."""
+    tours = {
+        "a": (Visit("t", Pose(2.0, 2.0, 0.0), 1.0, after=("u",)),),
+        "b": (Visit("u", Pose(2.0, 5.0, 0.0), 1.0, after=("t",)),),
+    }
+    trips = [by_hand.journey(name, tour[0].pose) for name, tour in tours.items()]
+    assert set(kinds(by_hand.plan([by_hand.CART] * 2, trips, tours))) == {"after"}

@@ -109,6 +109,8 @@ class TourRun {
   bool is_useful(const Node& node);
   void arrive(std::int32_t index);
   Drive edge_of(std::int32_t edge) const;
+  Ticks patience(const Node& node) const;
+  Ticks dwell(const Node& node) const;
   double price(int track) const;
 
   const Body& body(int leg) const {
@@ -148,7 +150,8 @@ class TourRun {
   std::vector<const GoalDistance*> distances_;  // null until a leg proves to need it
   std::vector<std::int64_t> spent_on_;          // expansions per leg
   std::vector<Frame> goal_frames_;
-  std::vector<double> tail_;  // estimate of all that follows a leg
+  std::vector<double> tail_;   // estimate of all that follows a leg
+  std::vector<double> floor_;  // priority that a leg's states cannot fall below (time only)
   std::vector<Step> primitive_steps_;
   std::int32_t found_ = kNone;
   std::int32_t best_ = kNone;  // cheapest complete way so far
@@ -196,6 +199,13 @@ void TourRun::look_ahead() {
     tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta) +
                (s_.objective_.time ? legs_[i].service : 0);
   }
+  // Whatever comes early waits: all ways there are worth as much, and the nearest goes first.
+  floor_.assign(legs_.size(), 0.0);
+  for (std::size_t i = legs_.size() - 1; i-- > 0;) {
+    const double begin = legs_[i].not_before - q_.ready;
+    const double after = std::max(weight_, s_.params_.tail_weight) * tail_[i];
+    floor_[i] = std::max(floor_[i + 1], begin > 0.0 ? begin + after : 0.0);
+  }
 }
 
 // The straight distance has led nowhere for as long as it takes to know the one round obstacles.
@@ -212,6 +222,7 @@ void TourRun::grow_greedy() {
   const double greedier = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
   if (greedier == weight_) return;
   weight_ = greedier;
+  look_ahead();
   sort_anew();
 }
 
@@ -246,7 +257,9 @@ double TourRun::priority(const Node& node) {
   const double f = node.cost + weight_ * here + std::max(weight_, s_.params_.tail_weight) * tail;
   if (!s_.objective_.time) return f;
   // Before the final pose is free for good all ways are alike; the nearest goes first.
-  return std::max(f, static_cast<double>(earliest_rest_ - q_.ready)) + 1e-3 * (here + tail);
+  const double least = std::max(floor_[static_cast<std::size_t>(node.leg)],
+                                static_cast<double>(earliest_rest_ - q_.ready));
+  return std::max(f, least) + 1e-3 * (here + tail);
 }
 
 Drive TourRun::edge_of(std::int32_t edge) const {
@@ -256,6 +269,19 @@ Drive TourRun::edge_of(std::int32_t edge) const {
   }
   const Shot& shot = shots_[i - primitive_steps_.size()];
   return {shot.steps.data(), shot.steps.size(), shot.duration};
+}
+
+// How long the robot waits at a visit until its service may begin.
+Ticks TourRun::patience(const Node& node) const {
+  if (!node.arrives) return 0;
+  const Leg& leg = legs_[static_cast<std::size_t>(node.leg) - 1];
+  return std::max(0, leg.not_before - (node.departure + edge_of(node.edge).duration));
+}
+
+// How long it stands at a visit.
+Ticks TourRun::dwell(const Node& node) const {
+  if (!node.arrives) return 0;
+  return patience(node) + legs_[static_cast<std::size_t>(node.leg) - 1].service;
 }
 
 double TourRun::price(int track) const { return (*q_.penalty)[static_cast<std::size_t>(track)]; }
@@ -289,7 +315,7 @@ bool TourRun::launch(Node& child) const {
   const Frame start = frame(parent);
   const Frame end = frame(child);
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
-  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Ticks service = dwell(child);
   const Ticks departure = child.departure, arrival = departure + edge.duration;
   if (departure > parent.end) {  // somebody comes while it changes its mode
     child.departure = kNever;
@@ -301,7 +327,7 @@ bool TourRun::launch(Node& child) const {
                                              child.t, child.cost, 0)) {
     if (seen->end < kNever && q_.traffic) {
       child.after = seen->met;
-      later = departure + std::max(1, seen->met - child.t);
+      later = departure + patience(child) + std::max(1, seen->met - child.t);
     }
   } else {
     int track = 0;
@@ -333,7 +359,7 @@ bool TourRun::pay(Node& child) {
   const Body& moving = body(parent.leg);
   const Frame start = frame(parent), end = frame(child);
   const bool last = child.arrives && child.leg == static_cast<int>(legs_.size());
-  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
+  const Ticks service = dwell(child);
   const Ticks arrival = child.departure + edge.duration;
   double penalties = 0.0;
   child.hits = meet_.collect(moving, start, edge, child.departure, parent.hits);
@@ -367,14 +393,16 @@ bool TourRun::pay(Node& child) {
 // Times and cost of a child that departs then.
 void TourRun::depart(Node& child, Ticks departure) const {
   const Node& parent = nodes_[static_cast<std::size_t>(child.parent)];
-  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   child.departure = departure;
-  child.t = departure + edge_of(child.edge).duration + service;
+  child.t = departure + edge_of(child.edge).duration + dwell(child);
   child.end = -1;
+  // Once it has come to its final rest, waiting costs nothing.
+  const bool last = child.leg == static_cast<int>(legs_.size());
+  const Ticks waiting = departure - parent.t + (last ? 0 : patience(child));
+  const Ticks service = child.arrives ? legs_[static_cast<std::size_t>(parent.leg)].service : 0;
   child.cost =
       parent.cost + child.step +
-      (s_.objective_.time ? departure - parent.t + service
-                          : s_.objective_.waiting * (departure - parent.t) / kTicksPerSecond);
+      (s_.objective_.time ? waiting + service : s_.objective_.waiting * waiting / kTicksPerSecond);
 }
 
 void TourRun::push(const Node& child) {
@@ -404,7 +432,7 @@ void TourRun::arrive(std::int32_t index) {
   if (!node.arrives || node.leg < static_cast<int>(legs_.size())) return;
   if (best_ == kNone || node.cost < nodes_[static_cast<std::size_t>(best_)].cost) best_ = index;
   // Nothing can come to rest before the pose is free for good: good enough, no longer a search.
-  const Ticks arrival = node.t - legs_.back().service;
+  const Ticks arrival = node.t - dwell(node);
   if (s_.objective_.time && !q_.penalty && earliest_rest_ > q_.ready &&
       q_.below == std::numeric_limits<double>::infinity() &&
       arrival - earliest_rest_ <= 1000 + (earliest_rest_ - q_.ready) / 10) {
@@ -420,7 +448,7 @@ void TourRun::retry(const Node& node, Ticks met) {
   const bool can_wait = parent.mode < 0 || table_.rest[static_cast<std::size_t>(parent.mode)];
   if (!can_wait || (!s_.objective_.time && q_.penalty && node.hits != parent.hits)) return;
   Node child = node;
-  const Ticks departure = node.departure + std::max(1, met - node.t);
+  const Ticks departure = node.departure + patience(node) + std::max(1, met - node.t);
   if (departure > parent.end) return;
   child.hits = parent.hits;
   child.driven = false;
@@ -698,6 +726,8 @@ TourResult TourRun::extract(std::int32_t goal) {
     }
     if (node.arrives) {
       at = legs_[static_cast<std::size_t>(leg)].goal;
+      result.arrival = t;
+      stand(t + patience(node));
       result.stops.push_back({leg, t, t + legs_[static_cast<std::size_t>(leg)].service});
       stand(result.stops.back().leave);
     }
@@ -705,7 +735,6 @@ TourResult TourRun::extract(std::int32_t goal) {
   // From now on it stands with this body.
   result.pieces.push_back({t, t + 1, at, {}, -1, q_.rest_body});
   result.cost = nodes_[static_cast<std::size_t>(goal)].cost;
-  result.arrival = result.stops.empty() ? 0 : result.stops.back().arrive;
   return result;
 }
 

@@ -195,7 +195,11 @@ def _visit(visit: Visit) -> dict[str, Any]:
     content |= _given(load=visit.load, needs=visit.needs)
     if visit.together:
         content["with"] = visit.together
-    return content
+    if visit.not_before:
+        content["not_before"] = float(visit.not_before)
+    if visit.after:
+        content["after"] = visit.after
+    return content | _given(due=_float(visit.due))
 
 
 def _track(track: Track, name: str) -> dict[str, Any]:

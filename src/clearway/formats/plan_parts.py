@@ -124,14 +124,24 @@ def _visit(node: Node, robots: set[str]) -> Visit:
             partner.fail("unknown robot", f"known: {', '.join(sorted(robots))}")
     if load.given and load.value not in ("pick", "drop"):
         load.fail("unknown load change", 'write "pick" or "drop", or leave it out')
-    duration = service.figure() if service.given else 0.0
-    if duration < 0.0:
-        service.fail("must be 0 or above", "give the time to stand there (s)")
+    after = node["after"]
     return Visit(
         task=task.text() if task.given else None,
         pose=pose_of(node["pose"]),
-        service=duration,
+        service=_seconds(service) or 0.0,
         load=load.value if load.given else None,
         needs=needs.text() if needs.given else None,
         together=tuple(p.text() for p in partners),
+        not_before=_seconds(node["not_before"]) or 0.0,
+        after=tuple(task.text() for task in after.elements()) if after.given else (),
+        due=_seconds(node["due"]),
     )
+
+
+def _seconds(node: Node) -> float | None:
+    if not node.given:
+        return None
+    seconds = node.figure()
+    if seconds < 0.0:
+        node.fail("must be 0 or above", "give the time in s")
+    return seconds

@@ -61,6 +61,9 @@ class Metrics:
         is not complete.
     duration
         End of the last activity of all, service at the last visit included.
+    tardiness
+        Sum over tasks of the seconds that they are finished after they are due; those not
+        finished do not count. ``None`` where no task is due.
     separations
         One per pair, the closest pair first.
     violations
@@ -80,6 +83,7 @@ class Metrics:
     cost_lower_bound: float | None
     distance: float
     duration: float
+    tardiness: float | None
     per_robot: tuple[RobotMetrics, ...]
     separations: tuple[Separation, ...]
     violations: int
@@ -124,6 +128,7 @@ def plan_metrics(
         cost_lower_bound=record.cost_lower_bound,
         distance=sum(robot.distance for robot in per_robot),
         duration=duration,
+        tardiness=_tardiness(record),
         per_robot=per_robot,
         separations=tuple(
             sorted((Separation(*pair) for pair in separations), key=lambda pair: pair.metres)
@@ -169,6 +174,18 @@ def _robot_metrics(
         tasks=tuple(record.assignment.get(robot.id, ())),
         finished=len(visit_times(record, robot)) == len(record.tours.get(robot.id, ())),
     )
+
+
+def _tardiness(record: PlanRecord) -> float | None:
+    if all(visit.due is None for tour in record.tours.values() for visit in tour):
+        return None
+    late = 0.0
+    for robot in record.robots:
+        for made in visit_times(record, robot):
+            due = record.tours[robot.id][made.visit].due
+            if due is not None:
+                late += max(made.leave - due, 0.0)
+    return round(late, 6)
 
 
 def _tasks(record: PlanRecord) -> tuple[int, int]:

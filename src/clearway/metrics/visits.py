@@ -51,6 +51,7 @@ def _seen(track: Track, tour: tuple[Visit, ...]) -> Iterator[VisitTime]:
     rests = _rests(track)
     clock = 0.0
     for index, visit in enumerate(tour):
+        clock = max(clock, visit.not_before)
         near = _is_at(track, visit.pose)
         candidates = [
             max(clock, rest.start)

@@ -58,7 +58,10 @@ class Piece:
 
 @dataclass(frozen=True)
 class Stop:
-    """A visit in time: index into the robot's visits, ticks of arrival and of leaving."""
+    """A visit in time: index into the robot's visits, ticks at which its service begins and ends.
+
+    A robot that comes before it may be served waits until ``arrive``.
+    """
 
     visit: int
     arrive: int

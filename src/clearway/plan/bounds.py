@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from clearway import _core
 from clearway.model import LOAD_CHANGE, Pose, Problem, RobotType, Site, wrap
@@ -52,14 +53,31 @@ def leg_bound(robot_type: RobotType, start: Pose, goal: Pose, distance: float) -
     return seconds
 
 
-class _Ways:
-    """Shortest ways of the largest disc about a type's reference point that its body holds."""
+class Leg(NamedTuple):
+    """What driving from one pose to another takes at least (s) and how long it is (m)."""
+
+    seconds: float
+    metres: float
+
+
+class LegBounds:
+    """Bounds on single legs, each robot taken alone.
+
+    A leg is at least as long as the shortest any-angle way of the largest disc about the type's
+    reference point that its body holds, and as the shortest curve of bounded curvature in the
+    open; it lasts at least that at top speed, or the turn at the yaw rate.
+    """
 
     def __init__(self, site: Site) -> None:
         self._site = site
         self._geodesics: dict[tuple[str, bool], _core.Geodesic] = {}
 
-    def __call__(self, robot_type: RobotType, loaded: bool, start: Pose, goal: Pose) -> float:
+    def __call__(self, robot_type: RobotType, loaded: bool, start: Pose, goal: Pose) -> Leg:
+        """Return the bounds of a robot's leg with or without load."""
+        way = max(self._way(robot_type, loaded, start, goal), curve_bound(robot_type, start, goal))
+        return Leg(leg_bound(robot_type, start, goal, way), way)
+
+    def _way(self, robot_type: RobotType, loaded: bool, start: Pose, goal: Pose) -> float:
         key = (robot_type.name, loaded)
         if key not in self._geodesics:
             radius = native_body(robot_type.shape(loaded)).inradius
@@ -69,31 +87,38 @@ class _Ways:
         return way if math.isfinite(way) else start.distance(goal)
 
 
-def lower_bounds(problem: Problem) -> Bounds:
-    """Return bounds that hold for any continuous motion of the robots, each taken alone.
-
-    A leg is at least as long as the shortest any-angle way of the disc that the body holds
-    about its reference point, and as the shortest curve of bounded curvature in the open; it
-    lasts at least that at top speed, or the turn at the yaw rate.
-    """
-    arrival, length = {}, {}
-    ways = _Ways(problem.site)
+def tour_bounds(problem: Problem) -> dict[str, tuple[Leg, ...]]:
+    """Return the bounds of each leg of each robot's tour, by robot id."""
+    bounds = LegBounds(problem.site)
+    tours: dict[str, tuple[Leg, ...]] = {}
     for robot in problem.robots:
         robot_type = problem.robot_types[robot.type]
         state = problem.state_of(robot)
         at, loads = state.pose, int(state.loaded)
-        visits = problem.tours.get(robot.id, ())
-        seconds, metres = [], []
-        for i, visit in enumerate(visits):
-            way = max(
-                ways(robot_type, loads > 0, at, visit.pose),
-                curve_bound(robot_type, at, visit.pose),
-            )
-            metres.append(way)
-            seconds.append(leg_bound(robot_type, at, visit.pose, way))
-            if i + 1 < len(visits):
-                seconds.append(visit.service)
+        legs = []
+        for visit in problem.tours.get(robot.id, ()):
+            legs.append(bounds(robot_type, loads > 0, at, visit.pose))
             at = visit.pose
             loads += LOAD_CHANGE[visit.load]
-        arrival[robot.id], length[robot.id] = math.fsum(seconds), math.fsum(metres)
+        tours[robot.id] = tuple(legs)
+    return tours
+
+
+def lower_bounds(problem: Problem) -> Bounds:
+    """Return bounds that hold for any continuous motion of the robots, each taken alone.
+
+    Services are made, and none begins before it may.
+    """
+    arrival, length = {}, {}
+    for robot, legs in tour_bounds(problem).items():
+        visits = problem.tours.get(robot, ())
+        seconds = [0.0]
+        for i, (visit, leg) in enumerate(zip(visits, legs, strict=True)):
+            seconds.append(leg.seconds)
+            if i + 1 < len(visits):
+                if math.fsum(seconds) < visit.not_before:
+                    seconds = [visit.not_before]
+                seconds.append(visit.service)
+        arrival[robot] = math.fsum(seconds)
+        length[robot] = math.fsum(leg.metres for leg in legs)
     return Bounds(arrival, length)

@@ -91,7 +91,8 @@ class NativeTeam:
         legs = []
         for visit in self.problem.tours.get(robot.id, ()):
             body = self._body(robot.type, loads)
-            legs.append(_core.Leg(_core.Pose(*visit.pose), to_ticks(visit.service), body))
+            ready = to_ticks(visit.not_before)
+            legs.append(_core.Leg(_core.Pose(*visit.pose), to_ticks(visit.service), body, ready))
             loads += LOAD_CHANGE[visit.load]
         agent.legs = [] if fixed else legs
         agent.rest_body = self._body(robot.type, loads)

@@ -59,6 +59,8 @@ KINDS = (
     "visit",
     "service",
     "together",
+    "not_before",  # a visit made too early
+    "after",  # a visit made before a task that it waits for is finished
     "status",
     "assignment",
     "sum_of_costs",

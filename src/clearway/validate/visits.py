@@ -35,7 +35,7 @@ Schedule = dict[str, list[Service]]
 
 
 def schedule_of(record: PlanRecord, steps: dict[str, Steps]) -> Schedule:
-    """Return when each visit is made, each as early as its order and its partners allow.
+    """Return when each visit is made, each as early as its order and those it waits for allow.
 
     A visit begins when the robot comes to rest at its pose, or passes it where its service
     is 0, and lasts for its service.
@@ -44,7 +44,7 @@ def schedule_of(record: PlanRecord, steps: dict[str, Steps]) -> Schedule:
     for robot in record.robots:
         motion = steps[robot.id]
         schedule[robot.id] = [
-            Service(visit, windows_at(motion, visit.pose))
+            Service(visit, windows_at(motion, visit.pose), visit.not_before)
             for visit in record.tours.get(robot.id, ())
         ]
     rests = {name: _rests(motion) for name, motion in steps.items()}
@@ -53,7 +53,7 @@ def schedule_of(record: PlanRecord, steps: dict[str, Steps]) -> Schedule:
     for _ in range(1 + sum(len(services) for services in schedule.values())):
         for name, services in schedule.items():
             _place(services, rests[name])
-        waiting = _wait_for_partners(schedule)
+        waiting = _wait_for_partners(schedule) + _wait_for_tasks(schedule)
         if not waiting:
             break
     for service in waiting:
@@ -114,7 +114,7 @@ def _place(services: list[Service], rests: Floats) -> None:
         duration = service.visit.service
         for window in service.windows:
             begin = max(window[0], done, service.not_before)
-            if window[1] - begin < duration - TIME or window[1] < begin - 1e-9:
+            if begin == np.inf or window[1] - begin < duration - TIME or window[1] < begin - 1e-9:
                 continue
             service.window = window
             service.begin = _at_rest(begin, window, duration, rests)
@@ -151,6 +151,32 @@ def _wait_for_partners(schedule: Schedule) -> list[Service]:
     return waiting
 
 
+def _wait_for_tasks(schedule: Schedule) -> list[Service]:
+    """Set visits to begin after the tasks they wait for; return those that have to wait."""
+    done = _finished(schedule)
+    waiting = []
+    for services in schedule.values():
+        for service in services:
+            if service.begin is None:
+                continue
+            ready = max((done.get(task, np.inf) for task in service.visit.after), default=0.0)
+            if service.begin < ready - TIME:
+                service.not_before = ready
+                waiting.append(service)
+    return waiting
+
+
+def _finished(schedule: Schedule) -> dict[str, float]:
+    """Return when (s) each task is finished; infinite where a visit of it is not made."""
+    done: dict[str, float] = {}
+    for services in schedule.values():
+        for service in services:
+            if service.visit.task is not None:
+                end = np.inf if service.end is None else service.end
+                done[service.visit.task] = max(done.get(service.visit.task, 0.0), end)
+    return done
+
+
 def _partners(schedule: Schedule, name: str, k: int) -> list[Service]:
     """Return the partners' services that belong to the k-th visit of ``name``.
 
@@ -183,7 +209,7 @@ def loads_of(services: list[Service]) -> tuple[tuple[float, bool], ...]:
 
 
 def judge_visits(record: PlanRecord, schedule: Schedule) -> list[Violation]:
-    """Return visits that are not made, too short, or not made together."""
+    """Return visits that are not made, too short, too early, or not made together."""
     return [
         violation
         for robot in record.robots
@@ -211,9 +237,29 @@ def _visit(robot: Robot, schedule: Schedule, k: int) -> list[Violation]:
         text = f"{what} is not made: never within 1 cm and 1 degree of its pose{early}"
         return [Violation("visit", (robot.id,), done, place, None, text)]
     longest = max(later, key=lambda w: w[1] - w[0])
-    if longest[1] - longest[0] >= visit.service - TIME:
-        names = (robot.id, *visit.together)
-        text = f"{what}: {', '.join(names)} do not stand at their poses at one time"
-        return [Violation("together", names, longest[0], place, None, text)]
-    text = f"{what} lasts {longest[1] - longest[0]:.3f} s instead of {visit.service:.3f} s"
-    return [Violation("service", (robot.id,), longest[0], place, None, text)]
+    if longest[1] - longest[0] < visit.service - TIME:
+        text = f"{what} lasts {longest[1] - longest[0]:.3f} s instead of {visit.service:.3f} s"
+        return [Violation("service", (robot.id,), longest[0], place, None, text)]
+    if not _fits(service, visit.not_before):
+        text = f"{what} is not made from {visit.not_before:.3f} s on, only before"
+        return [Violation("not_before", (robot.id,), longest[0], place, None, text)]
+    done_at = _finished(schedule)
+    for task in visit.after:
+        ready = done_at.get(task, np.inf)
+        if not _fits(service, ready):
+            when = f"is finished at {ready:.3f} s" if ready < np.inf else "is never finished"
+            text = f"{what} is not made after task {task}, which {when}"
+            return [Violation("after", (robot.id,), longest[0], place, None, text)]
+    if not visit.together:
+        text = f"{what} waits for tasks that wait for it"
+        return [Violation("after", (robot.id,), longest[0], place, None, text)]
+    names = (robot.id, *visit.together)
+    text = f"{what}: {', '.join(names)} do not stand at their poses at one time"
+    return [Violation("together", names, longest[0], place, None, text)]
+
+
+def _fits(service: Service, ready: float) -> bool:
+    """Whether the robot is at the pose for the whole service at some time from ``ready`` on."""
+    return ready < np.inf and any(
+        end - max(begin, ready) >= service.visit.service - TIME for begin, end in service.windows
+    )

@@ -159,6 +159,18 @@ def hand_over(wait: float) -> PlanRecord:
     return plan([CART, CART], [a, b], tours)
 
 
+def in_turn(ready: float, *, released: float = 0.0) -> PlanRecord:
+    """Return two carts: a serves t1 from 2 s to 5 s, b serves t2 for 1 s and leaves at ``ready``.
+
+    t2 waits for t1, and for its release.
+    """
+    then = Visit("t2", Pose(8.0, 6.0, 0.0), 1.0, not_before=released, after=("t1",), due=5.5)
+    tours = {"a": (Visit("t1", Pose(5.0, 5.0, 0.0), 3.0),), "b": (then,)}
+    a = journey("a", Pose(3.0, 5.0, 0.0), ahead(2.0))
+    b = journey("b", Pose(7.0, 6.0, 0.0), ahead(1.0), ready - 1.0, ahead(2.0))
+    return plan([CART, CART], [a, b], tours)
+
+
 def paper(cost: float) -> PlanRecord:
     """Return a crab whose cost is 12.641592653589793.
 
@@ -310,6 +322,13 @@ def _wrong_work() -> dict[str, PlanRecord]:
             robots=(*right.robots, Robot("b", "lifter", Pose(15.0, 8.0, 0.0))),
             assignment={"a": ("t1",), "b": ()},
         ),
+        "not_before": in_turn(7.0, released=6.1),
+        "after": in_turn(5.9),
+        "after--nobody": alone(
+            CART,
+            tours={"a": (Visit("t2", Pose(5.0, 5.0, 0.0), after=("t1",)),)},
+            assignment={"a": ("t2",)},
+        ),
         "status": replace(right, status=Status.STOPPED),
         "assignment": replace(right, assignment={"a": ("t2",)}),
         "sum_of_costs": replace(right, sum_of_costs=right.sum_of_costs + 0.002),
@@ -365,6 +384,8 @@ def right_plans() -> dict[str, PlanRecord]:
         ),
         "gentle-ramps": alone(swift, *ramp(0.0, 1.0), ahead(2.0), *ramp(1.0, 0.0, 0.5)),
         "hand-over": hand_over(4.0),
+        "one-after-the-other": in_turn(6.0),
+        "not-before-its-time": in_turn(8.5, released=7.5),
         "paper-cost": paper(12.6416),
         "leaving-a-closed-zone": alone(CART, ahead(5.0), site=around(zones=(inside,))),
         "conflict-after-the-window": plan(

@@ -31,6 +31,7 @@ struct Leg {
   Ticks service = 0;
   int body = 0;
   double required = 0.0;  // gap to keep from obstacles on the way
+  Ticks not_before = 0;   // the service begins no sooner: who comes before then waits
 };
 
 struct SearchParams {
@@ -69,7 +70,7 @@ struct TourQuery {
 
 struct TourStop {
   int leg = 0;
-  Ticks arrive = 0, leave = 0;
+  Ticks arrive = 0, leave = 0;  // of the service
 };
 
 struct TourResult {
@@ -78,9 +79,9 @@ struct TourResult {
   std::vector<TimedPiece> pieces;
   std::vector<TourStop> stops;
   std::vector<int> hits;  // tracks that a soft path runs into
-  Ticks arrival = 0;
-  double cost = 0.0;     // of the objective
-  bool is_full = false;  // stopped since it would have kept more than `most_nodes`
+  Ticks arrival = 0;      // at the last pose, wherever it waits for its service
+  double cost = 0.0;      // of the objective
+  bool is_full = false;   // stopped since it would have kept more than `most_nodes`
 };
 
 struct TourMemory;
