@@ -32,10 +32,16 @@ def test_service_counts_but_for_the_last():
 
 
 def test_waiting_for_a_visit_counts_but_for_the_last():
-    """4 m, until 10 s at the first visit, its 3 s, and 4 m; what comes later than 10 s waits not."""
+    """4 m, until 10 s at the first visit, its 3 s, and 4 m; nobody waits for what is past."""
     first, last = to(5.0, 1.0, EAST, 3.0), replace(to(9.0, 1.0, EAST), not_before=60.0)
     assert bound(replace(first, not_before=10.0), last).seconds == pytest.approx(17.0)
     assert bound(replace(first, not_before=4.0), last).seconds == pytest.approx(11.0)
+
+
+def test_a_final_rest_begins_with_the_last_motion():
+    """4 m; what is served there, once and again, keeps no wheel turning."""
+    visit = to(5.0, 1.0, EAST, 3.0)
+    assert bound(visit, visit).seconds == pytest.approx(4.0)
 
 
 def test_who_drives_faster_backwards_is_bound_by_that():

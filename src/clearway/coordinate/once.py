@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from clearway.assign import build, tours_of
+from clearway.coordinate.precedence import plan_in_order
 from clearway.coordinate.system import System
 from clearway.model import Plan, Problem, Scenario, Visit
 from clearway.protocols import Budget, Progress
@@ -38,7 +39,7 @@ def plan_once(
     problem = Problem(scenario.site, scenario.robot_types, scenario.robots, tours)
     _refuse(system.plan.unsupported(problem))
     before_planning()
-    return system.plan(problem, budget, seed, progress)
+    return plan_in_order(system.plan, problem, budget, seed, progress)
 
 
 def _kept(scenario: Scenario) -> dict[str, tuple[Visit, ...]] | None:

@@ -112,13 +112,13 @@ def lower_bounds(problem: Problem) -> Bounds:
     arrival, length = {}, {}
     for robot, legs in tour_bounds(problem).items():
         visits = problem.tours.get(robot, ())
-        seconds = [0.0]
-        for i, (visit, leg) in enumerate(zip(visits, legs, strict=True)):
+        seconds, arrival[robot] = [0.0], 0.0
+        for visit, leg in zip(visits, legs, strict=True):
             seconds.append(leg.seconds)
-            if i + 1 < len(visits):
-                if math.fsum(seconds) < visit.not_before:
-                    seconds = [visit.not_before]
-                seconds.append(visit.service)
-        arrival[robot] = math.fsum(seconds)
+            if leg.seconds > 0.0:  # who is there already rests there already
+                arrival[robot] = math.fsum(seconds)
+            if math.fsum(seconds) < visit.not_before:
+                seconds = [visit.not_before]
+            seconds.append(visit.service)
         length[robot] = math.fsum(leg.metres for leg in legs)
     return Bounds(arrival, length)

@@ -39,9 +39,25 @@ class Budget:
         if self.expansions is not None and self.expansions < 0:
             raise ValueError(f"a budget of expansions must be 0 or above, got {self.expansions}")
 
+    @property
+    def is_unlimited(self) -> bool:
+        """Whether nothing ends a search but its own end."""
+        return self.seconds is None and self.expansions is None
+
+    def share(self, part: float) -> "Budget":
+        """Return that part, in (0, 1], of the effort."""
+        return Budget(
+            None if self.seconds is None else part * self.seconds,
+            None if self.expansions is None else int(part * self.expansions),
+        )
+
 
 class Planner(Protocol):
-    """Moves a team through its tours without conflict."""
+    """Moves a team through its tours without conflict, each visit at its time.
+
+    The tasks that visits wait for (``after``) are not the planner's business: `plan_in_order`
+    of the coordinator makes times of them.
+    """
 
     def __call__(
         self,
