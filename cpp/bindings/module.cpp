@@ -7,4 +7,5 @@ NB_MODULE(_core, m) {
   clearway::bindings::bind_motion(m);
   clearway::bindings::bind_prioritised(m);
   clearway::bindings::bind_conflict_search(m);
+  clearway::bindings::bind_lone_legs(m);
 }

@@ -32,6 +32,13 @@ double largest_gap(const std::vector<Model>& models, double margin) {
 
 }  // namespace
 
+double leg_gap(const Model& model, int body, const Pose& from, const Pose& to, double margin) {
+  const auto b = static_cast<std::size_t>(body);
+  const double here = model.statics[b]->gap(model.bodies[b], Frame(from));
+  const double there = model.statics[b]->gap(model.bodies[b], Frame(to));
+  return std::max(-kLegalOverlap, std::min({std::max(model.clearance, margin), here, there}));
+}
+
 Team::Team(const std::vector<Model>& models, std::vector<Agent> agents, const SearchParams& search,
            const Objective& objective, double margin)
     : models_(models),
@@ -73,9 +80,7 @@ void Team::require_gaps(double margin) {
     rests[i].push_back({Frame(from), &first_body(i)});
     for (Leg& leg : agents_[i].legs) {
       const auto b = static_cast<std::size_t>(leg.body);
-      const double here = m.statics[b]->gap(m.bodies[b], Frame(from));
-      const double there = m.statics[b]->gap(m.bodies[b], Frame(leg.goal));
-      leg.required = std::max(-kLegalOverlap, std::min({wanted[i], here, there}));
+      leg.required = leg_gap(m, leg.body, from, leg.goal, margin);
       from = leg.goal;
       rests[i].push_back({Frame(from), &m.bodies[b]});
     }

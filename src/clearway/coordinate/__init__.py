@@ -2,5 +2,16 @@
 
 from clearway.coordinate.once import Unsupported, plan_once
 from clearway.coordinate.system import OwnTasks, System
+from clearway.coordinate.travel import ByDuration, Searched, Travel, bounded_seconds, by_grid
 
-__all__ = ["OwnTasks", "System", "Unsupported", "plan_once"]
+__all__ = [
+    "ByDuration",
+    "OwnTasks",
+    "Searched",
+    "System",
+    "Travel",
+    "Unsupported",
+    "bounded_seconds",
+    "by_grid",
+    "plan_once",
+]

@@ -32,7 +32,7 @@ def plan_once(
     """
     tours = _kept(scenario)
     if tours is None:
-        work = build(scenario, system.weights)
+        work = system.travel(scenario, build(scenario, system.weights))
         _refuse(system.assign.unsupported(work))
         tours = tours_of(scenario, system.assign(work, seed))
     tours = system.own_tasks(scenario, tours)

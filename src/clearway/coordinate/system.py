@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from clearway.coordinate.travel import Travel, by_grid
 from clearway.model import Scenario, Visit
 from clearway.protocols import Assigner, Planner, Weights
 
@@ -20,7 +21,15 @@ class OwnTasks(Protocol):
 
 @dataclass(frozen=True)
 class System:
-    """Parts that together do a scenario's work; ``parameters`` tell files how it was set."""
+    """Parts that together do a scenario's work.
+
+    Parameters
+    ----------
+    travel
+        How far apart ``assign`` believes tasks to be.
+    parameters
+        Tell files how the system was set.
+    """
 
     name: str
     assign: Assigner
@@ -28,3 +37,4 @@ class System:
     plan: Planner
     weights: Weights = field(default_factory=Weights)
     parameters: Mapping[str, Any] = field(default_factory=dict)
+    travel: Travel = by_grid

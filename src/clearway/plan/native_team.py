@@ -10,6 +10,7 @@ from clearway.model import (
     Pose,
     Problem,
     RobotType,
+    Site,
     Stop,
     Trajectory,
     to_ticks,
@@ -28,6 +29,28 @@ def free_tables(robot_type: RobotType) -> tuple[MotionModel, MotionModel]:
     return model_of(robot_type, COARSE_HEADINGS), model_of(robot_type, FINE_HEADINGS)
 
 
+Tables = Callable[[RobotType], tuple[MotionModel, MotionModel]]
+
+
+def native_model(
+    site: Site, robot_type: RobotType, reach: float, tables: Tables = free_tables
+) -> _core.Model:
+    """Return what the core needs of a type; ``reach`` (m) is the largest body's on the site."""
+    changes = robot_type.loaded_footprint is not None or any(o.blocks for o in site.obstacles)
+    states = (False, True) if changes else (False,)
+    statics = [
+        _core.Statics(native_obstacles(site, robot_type.name, loaded), reach) for loaded in states
+    ]
+    table, fine = tables(robot_type)
+    return _core.Model(
+        [native_body(robot_type.shape(loaded)) for loaded in states],
+        statics,
+        native_table(table),
+        native_table(fine),
+        robot_type.clearance,
+    )
+
+
 class NativeTeam:
     """Models and agents of a problem, in the problem's order.
 
@@ -38,7 +61,7 @@ class NativeTeam:
         self,
         problem: Problem,
         bounds: Bounds,
-        tables: Callable[[RobotType], tuple[MotionModel, MotionModel]] = free_tables,
+        tables: Tables = free_tables,
     ) -> None:
         self.problem = problem
         self._tables = tables
@@ -52,21 +75,8 @@ class NativeTeam:
         self.agents = [self._agent(i) for i in range(len(problem.robots))]
 
     def _model(self, robot_type: RobotType, reach: float) -> _core.Model:
-        self.motion[robot_type.name], fine = self._tables(robot_type)
-        site = self.problem.site
-        changes = robot_type.loaded_footprint is not None or any(o.blocks for o in site.obstacles)
-        states = (False, True) if changes else (False,)
-        statics = [
-            _core.Statics(native_obstacles(site, robot_type.name, loaded), reach)
-            for loaded in states
-        ]
-        return _core.Model(
-            [native_body(robot_type.shape(loaded)) for loaded in states],
-            statics,
-            native_table(self.motion[robot_type.name]),
-            native_table(fine),
-            robot_type.clearance,
-        )
+        self.motion[robot_type.name] = self._tables(robot_type)[0]
+        return native_model(self.problem.site, robot_type, reach, self._tables)
 
     def _body(self, robot_type: str, loads: int) -> int:
         """Return the number of the body that a robot has with that many loads."""

@@ -11,7 +11,7 @@ from typing import Literal
 
 from clearway.assign import InsertionLocalSearch, RandomAssigner, park
 from clearway.assign.insertion import InsertionParams
-from clearway.coordinate import System
+from clearway.coordinate import ByDuration, Searched, System, Travel, bounded_seconds, by_grid
 from clearway.model import Scenario, Visit
 from clearway.plan import Aim, PrioritisedPlanner, TeamParams
 from clearway.protocols import Assigner, Weights
@@ -32,6 +32,9 @@ class HierarchicalSettings:
         Weights of objective A-4 (eq. 2): longest route, all routes (per m), turns (per rad).
     tardiness
         Weight of each second that a task is finished after it is due; not in the paper.
+    travel
+        How far apart tasks are believed to be: ``grid`` distances, ``curves`` (least times of
+        any motion) or ``planned`` (times of lone ways, each searched for).
     park
         Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
     objective
@@ -47,6 +50,7 @@ class HierarchicalSettings:
     total_distance: float = 1.0
     turning: float = 1.0
     tardiness: float = 1.0
+    travel: Literal["grid", "curves", "planned"] = "grid"
     park: Literal["blocking", "always", "never"] = "blocking"
     objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
@@ -77,11 +81,17 @@ def hierarchical(settings: HierarchicalSettings) -> System:
         "insertion": InsertionLocalSearch(InsertionParams(even=settings.even)),
         "random": RandomAssigner(even=settings.even),
     }
+    travels: dict[str, Travel] = {
+        "grid": by_grid,
+        "curves": ByDuration(bounded_seconds),
+        "planned": ByDuration(Searched(params)),
+    }
     return System(
         name="hierarchical",
         assign=assigners[settings.assign],
         own_tasks=own_tasks,
         plan=PrioritisedPlanner(params),
+        travel=travels[settings.travel],
         weights=Weights(
             settings.max_distance, settings.total_distance, settings.turning, settings.tardiness
         ),

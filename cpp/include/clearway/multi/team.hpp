@@ -22,6 +22,9 @@ struct Agent {
   Ticks bound = 0;  // no motion whatever arrives at the last leg before
 };
 
+// Gap to keep from obstacles on a leg: the clearance, or what its ends leave where that is less.
+double leg_gap(const Model& model, int body, const Pose& from, const Pose& to, double margin);
+
 class Team {
  public:
   // `margin`: gap kept where the robots' clearance asks for less (m).
