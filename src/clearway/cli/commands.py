@@ -73,6 +73,8 @@ def _summary(run: Run) -> dict[str, Any]:
         "concerned": list(run.plan.concerned),
         "violations": [str(violation) for violation in run.violations],
         "expansions": run.plan.counters["expansions"],
+        "reassigned": run.plan.counters.get("reassigned", 0),
+        "reassignment_gain_percent": run.plan.counters.get("reassignment_gain_permille", 0) / 10.0,
         "timings": dict(run.record.timings),
     }
 
@@ -90,6 +92,11 @@ def _told(run: Run) -> str:
     )
     bound = f", lower bound {record.lower_bound:.1f} s" if record.lower_bound else ""
     lines.append(f"  sum of costs {record.sum_of_costs:.1f} s{bound}")
+    if run.plan.counters.get("reassigned"):
+        gain = run.plan.counters["reassignment_gain_permille"] / 10.0
+        lines.append(f"  tasks shared out anew, for {gain:.1f} % less than at first")
+    if run.metrics.tardiness is not None:
+        lines.append(f"  finished after due times by {run.metrics.tardiness:.1f} s in all")
     least = run.metrics.least_separation
     if least:
         lines.append(f"  least separation {least.metres:.3f} m ({least.first} and {least.second})")

@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 from clearway.assign import build, tours_of
 from clearway.coordinate.precedence import plan_in_order
-from clearway.coordinate.system import System
+from clearway.coordinate.reassign import Reassignment
+from clearway.coordinate.system import System, Tours
 from clearway.model import Plan, Problem, Scenario, Visit
 from clearway.protocols import Budget, Progress
 
@@ -30,16 +31,35 @@ def plan_once(
     Unsupported
         If a part of the system cannot take a feature of the scenario.
     """
-    tours = _kept(scenario)
-    if tours is None:
-        work = system.travel(scenario, build(scenario, system.weights))
-        _refuse(system.assign.unsupported(work))
-        tours = tours_of(scenario, system.assign(work, seed))
-    tours = system.own_tasks(scenario, tours)
-    problem = Problem(scenario.site, scenario.robot_types, scenario.robots, tours)
-    _refuse(system.plan.unsupported(problem))
+
+    def posed(tours: Tours) -> Problem:
+        tours = system.own_tasks(scenario, tours)
+        problem = Problem(scenario.site, scenario.robot_types, scenario.robots, tours)
+        _refuse(system.plan.unsupported(problem))
+        return problem
+
+    def planned(problem: Problem, share: Budget) -> Plan:
+        return plan_in_order(system.plan, problem, share, seed, progress)
+
+    kept = _kept(scenario)
+    if kept is not None:
+        problem = posed(kept)
+        before_planning()
+        return planned(problem, budget)
+    work = system.travel(scenario, build(scenario, system.weights))
+    _refuse(system.assign.unsupported(work))
+    routes = system.assign(work, seed)
+    problem = posed(tours_of(scenario, routes))
     before_planning()
-    return plan_in_order(system.plan, problem, budget, seed, progress)
+    if not system.rounds:
+        return planned(problem, budget)
+    return Reassignment(
+        scenario,
+        assign=lambda again: system.assign(again, seed),
+        plan=lambda some, share: planned(posed(tours_of(scenario, some)), share),
+        value=system.value,
+        rounds=system.rounds,
+    )(work, routes, budget)
 
 
 def _kept(scenario: Scenario) -> dict[str, tuple[Visit, ...]] | None:

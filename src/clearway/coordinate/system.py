@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from clearway.coordinate.travel import Travel, by_grid
+from clearway.coordinate.value import Value, sum_of_costs
 from clearway.model import Scenario, Visit
 from clearway.protocols import Assigner, Planner, Weights
 
@@ -27,6 +28,10 @@ class System:
     ----------
     travel
         How far apart ``assign`` believes tasks to be.
+    rounds
+        How often tasks are shared out anew for what a plan has shown.
+    value
+        By which plans are compared then.
     parameters
         Tell files how the system was set.
     """
@@ -38,3 +43,5 @@ class System:
     weights: Weights = field(default_factory=Weights)
     parameters: Mapping[str, Any] = field(default_factory=dict)
     travel: Travel = by_grid
+    rounds: int = 0
+    value: Value = sum_of_costs

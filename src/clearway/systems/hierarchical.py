@@ -12,10 +12,14 @@ from typing import Literal
 from clearway.assign import InsertionLocalSearch, RandomAssigner, park
 from clearway.assign.insertion import InsertionParams
 from clearway.coordinate import ByDuration, Searched, System, Travel, bounded_seconds, by_grid
+from clearway.coordinate.value import Value, makespan, paper, sum_of_costs
 from clearway.model import Scenario, Visit
 from clearway.plan import Aim, PrioritisedPlanner, TeamParams
 from clearway.protocols import Assigner, Weights
 from clearway.systems.settings import SettingsError
+
+MOST_ROUNDS = 100
+VALUES: dict[str, Value] = {"time": sum_of_costs, "makespan": makespan, "paper": paper}
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,9 @@ class HierarchicalSettings:
     travel
         How far apart tasks are believed to be: ``grid`` distances, ``curves`` (least times of
         any motion) or ``planned`` (times of lone ways, each searched for).
+    rounds
+        How often tasks are shared out anew for the ways that a plan has shown; the better plan
+        is kept. Each round assigns and plans once more.
     park
         Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
     objective
@@ -51,6 +58,7 @@ class HierarchicalSettings:
     turning: float = 1.0
     tardiness: float = 1.0
     travel: Literal["grid", "curves", "planned"] = "grid"
+    rounds: int = 0
     park: Literal["blocking", "always", "never"] = "blocking"
     objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
@@ -59,6 +67,8 @@ class HierarchicalSettings:
         for name in ("max_distance", "total_distance", "turning", "tardiness"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise SettingsError(f"system.{name}", getattr(self, name), "write 0 or above")
+        if not 0 <= self.rounds <= MOST_ROUNDS:
+            raise SettingsError("system.rounds", self.rounds, f"write 0 to {MOST_ROUNDS}")
         if not (math.isfinite(self.weight) and self.weight > 0.0):
             raise SettingsError("system.weight", self.weight, "write a number above 0")
 
@@ -92,6 +102,8 @@ def hierarchical(settings: HierarchicalSettings) -> System:
         own_tasks=own_tasks,
         plan=PrioritisedPlanner(params),
         travel=travels[settings.travel],
+        rounds=settings.rounds,
+        value=VALUES[settings.objective],
         weights=Weights(
             settings.max_distance, settings.total_distance, settings.turning, settings.tardiness
         ),
