@@ -6,6 +6,7 @@ import pytest
 from tests.systems.sites import hall
 
 from clearway.assign import InsertionLocalSearch, RandomAssigner
+from clearway.coordinate.value import paper
 from clearway.protocols import Weights
 from clearway.systems import HierarchicalSettings, SettingsError, choose_system
 
@@ -23,10 +24,13 @@ def test_without_settings_the_defaults_hold():
 
 
 def test_settings_reach_their_parts():
-    """Assigner, weights, search weight and objective."""
-    system = chosen(assign="random", turning=0.0, weight=2.5, objective="paper")
+    """Assigner, weights, rounds, search weight and objective."""
+    system = chosen(
+        assign="random", turning=0.0, tardiness=3.0, rounds=2, weight=2.5, objective="paper"
+    )
     assert isinstance(system.assign, RandomAssigner)
-    assert system.weights == Weights(1.0, 1.0, 0.0)
+    assert system.weights == Weights(1.0, 1.0, 0.0, 3.0)
+    assert (system.rounds, system.value) == (2, paper)
     assert system.plan.params.search.weight == 2.5
     assert not system.plan.params.objective.time
     assert chosen().plan.params.objective.time
@@ -47,6 +51,9 @@ def test_a_whole_number_serves_where_a_number_is_wanted():
         ({"weight": 0.0}, "system.weight", "above 0"),
         ({"weight": -2.0}, "system.weight", "above 0"),
         ({"turning": -1.0}, "system.turning", "0 or above"),
+        ({"tardiness": -1.0}, "system.tardiness", "0 or above"),
+        ({"travel": "flight"}, "system.travel", "planned"),
+        ({"rounds": -1}, "system.rounds", "0 to 100"),
     ],
 )
 def test_a_setting_that_does_not_fit_is_named(settings, key, mend):

@@ -1,11 +1,25 @@
 """System A as a composition."""
 
+import math
 from dataclasses import replace
 
 import pytest
 from tests.systems.sites import CARRIER, hall
 
-from clearway.model import Order, Pose, Robot, Site, Status, Task, Visit, Zone
+from clearway.formats.plan_file import dump_plan, parse_plan
+from clearway.model import (
+    Footprint,
+    Limits,
+    Order,
+    Pose,
+    Robot,
+    RobotType,
+    Site,
+    Status,
+    Task,
+    Visit,
+    Zone,
+)
 from clearway.protocols import Budget
 from clearway.systems import choose_system, solve
 
@@ -101,3 +115,63 @@ def test_a_system_is_a_value_made_anew():
     """Two scenarios of other settings do not share parts."""
     one, other = choose_system(hall()), choose_system(hall(settings={"weight": 3.0}))
     assert one.plan.params.search.weight != other.plan.params.search.weight
+
+
+def test_a_task_waits_for_another_robots_task_and_for_its_release():
+    """t2 is kept for b and waits for t1, a's; t1 is released at 30 s and due at 20 s."""
+    first, second = hall().orders
+    orders = (
+        Order(replace(first.task, robot="a"), release=30.0, due=20.0),
+        Order(replace(second.task, robot="b"), after=("t1",)),
+    )
+    run = solve(hall(orders=orders), budget=ENOUGH)
+    assert run.violations == ()
+    assert run.plan.status is Status.SOLVED
+    one, other = (run.record.paths[robot].stops[0] for robot in ("a", "b"))
+    assert one.arrive == 30_000
+    assert other.arrive >= one.leave
+    assert run.metrics.tardiness == pytest.approx(11.0)
+    assert run.record.tours["b"][0].after == ("t1",)
+    assert parse_plan(dump_plan(run.record)).tours == run.record.tours
+
+
+@pytest.mark.parametrize("travel", ["grid", "curves", "planned"])
+def test_whatever_ways_are_believed_the_plan_is_right_and_repeats(travel):
+    """Two rounds within a budget of expansions, twice alike."""
+    scenario = hall(settings={"travel": travel, "rounds": 2})
+    budget = Budget(expansions=20_000)
+    one, other = (solve(scenario, budget=budget) for _ in range(2))
+    assert one.violations == ()
+    assert one.record == other.record
+    assert 0 < one.plan.counters["expansions"] <= 20_000
+    assert one.plan.counters["reassigned"] in (0, 1, 2)
+
+
+def test_tasks_change_hands_where_a_plan_shows_a_detour():
+    """Which robot is nearer by the grid tells nothing of a car's turning round.
+
+    The car that heads west stands 3 m behind the task, the other 12 m before it and heads for
+    it. The grid gives the task to the first, whose way then proves to be the longer one.
+    """
+    car = RobotType(
+        "car", Footprint.rectangle(3.0, 1.5), "ackermann", Limits(1.0, turning_radius=5.0)
+    )
+    scenario = hall(
+        site=Site(((0, 0), (60, 0), (60, 30), (0, 30))),
+        robot_types={"car": car},
+        robots=(
+            Robot("near", "car", Pose(27.0, 12.0, math.pi)),
+            Robot("far", "car", Pose(18.0, 15.0, 0.0)),
+        ),
+        orders=(Order(Task("t", (Visit("t", Pose(30.0, 15.0, 0.0)),))),),
+    )
+    zero = {"turning": 0.0}
+    before = solve(replace(scenario, settings=zero))
+    after = solve(replace(scenario, settings={**zero, "rounds": 1}))
+    planned = solve(replace(scenario, settings={**zero, "travel": "planned"}))
+    assert before.record.assignment == {"near": ("t",), "far": ()}
+    assert after.record.assignment == {"near": (), "far": ("t",)}
+    assert planned.record.assignment == {"near": (), "far": ("t",)}
+    gain = 1.0 - after.record.sum_of_costs / before.record.sum_of_costs
+    assert after.plan.counters["reassigned"] == 1
+    assert after.plan.counters["reassignment_gain_permille"] == round(1000.0 * gain) > 0
