@@ -18,6 +18,10 @@ constexpr std::int64_t kFirstGreed = 256;  // expansions until a search grows gr
 constexpr double kMostWeight = 2.5;
 constexpr double kCertain = 0.95;  // share of an estimate that is relied on
 constexpr std::int32_t kNone = -1;
+// Towards a visit that must wait for its time, one sets out so much earlier: that many times the
+// least duration, and some ticks more.
+constexpr double kHeadStart = 1.5;
+constexpr Ticks kSpareTime = 5000;
 
 struct Node {
   double x, y;
@@ -111,6 +115,7 @@ class TourRun {
   Drive edge_of(std::int32_t edge) const;
   Ticks patience(const Node& node) const;
   Ticks dwell(const Node& node) const;
+  Ticks set_out(const Node& node);
   double price(int track) const;
 
   const Body& body(int leg) const {
@@ -282,6 +287,21 @@ Ticks TourRun::patience(const Node& node) const {
 Ticks TourRun::dwell(const Node& node) const {
   if (!node.arrives) return 0;
   return patience(node) + legs_[static_cast<std::size_t>(node.leg) - 1].service;
+}
+
+// When to leave a node. Who would be too early at the next visit stays where it is, as long as it
+// can: at a start or a visit made it is less in the way than at one that others have to pass.
+Ticks TourRun::set_out(const Node& node) {
+  const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
+  const bool begins = node.parent == kNone || node.arrives;
+  if (!begins || leg.not_before <= node.t || node.leg + 1 == static_cast<int>(legs_.size())) {
+    return node.t;
+  }
+  double ahead = estimate(node.leg, node.x, node.y, theta(node));
+  if (!s_.objective_.time) ahead *= kTicksPerSecond / table_.top_speed;
+  const double latest = leg.not_before - kHeadStart * ahead - kSpareTime;
+  if (latest <= node.t) return node.t;
+  return std::max(node.t, std::min(static_cast<Ticks>(latest), node.end));
 }
 
 double TourRun::price(int track) const { return (*q_.penalty)[static_cast<std::size_t>(track)]; }
@@ -543,6 +563,7 @@ void TourRun::expand(std::int32_t index) {
   const HeadingTable& headings = *headings_[static_cast<std::size_t>(node.leg)];
   const Statics& around = statics(node.leg);
   const double loss = around.loss();
+  const Ticks leaving = set_out(node);
   const double core =
       body(node.leg).inradius() + legs_[static_cast<std::size_t>(node.leg)].required;
   for (std::size_t i = 0; i < table_.primitives.size(); ++i) {
@@ -562,7 +583,7 @@ void TourRun::expand(std::int32_t index) {
     child.after = kNever;
     child.step = objective_of(table_, s_.objective_, primitive_steps_[i]);
     if (switching && !s_.objective_.time) child.step += s_.objective_.mode_switch;
-    depart(child, node.t + (switching ? table_.switch_duration : 0));
+    depart(child, leaving + (switching ? table_.switch_duration : 0));
     const Interval* seen =
         cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
     if (seen && seen->end >= kNever) continue;
@@ -583,6 +604,7 @@ void TourRun::shoot(std::int32_t index) {
   if (since_shot_ < 1.0 + distance && !node.arrives) return;  // a new leg tries at once
   since_shot_ = 0.0;
   const Pose from{node.x, node.y, theta(node)};
+  const Ticks leaving = set_out(node);
   connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_);
   for (Shot& shot : tried_) {
     Node child{};
@@ -604,7 +626,7 @@ void TourRun::shoot(std::int32_t index) {
     child.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
     child.after = kNever;
     shots_.push_back(std::move(shot));
-    depart(child, node.t + pause);
+    depart(child, leaving + pause);
     if (q_.penalty) {
       // What soft search has in hand when its effort ends counts.
       if (!passable(child)) continue;

@@ -7,8 +7,8 @@ from clearway.model import Plan, Problem, Status, Visit, to_seconds
 from clearway.plan.bounds import Leg, tour_bounds
 from clearway.protocols import Budget, Planner, Progress
 
-# Plans made until one keeps the order. Those that only look for times have a small share of a
-# limited budget, the last one has the rest.
+# Plans made until one keeps the order. Of a limited budget, those that look for times have this
+# share, doubled where it was not enough for any plan; the last one has the rest.
 MOST_TRIALS = 9
 SHARE = 1.0 / 16.0
 
@@ -39,11 +39,12 @@ def plan_in_order(
     if entangled:
         reason = f"the tours wait for each other at {', '.join(entangled)}"
         return _nothing(problem, reason, entangled)
-    kept, found, bound, expansions = None, True, None, 0
+    kept, bound, expansions = None, None, 0
+    share, left = SHARE, 1.0
     for trial in range(MOST_TRIALS):
-        final = kept is not None or not found or trial == MOST_TRIALS - 1
-        share = budget.share(1.0 - trial * SHARE if final else SHARE)
-        answer = plan(replace(problem, tours=tours), share, seed, progress)
+        final = kept is not None or left < 2.0 * share or trial == MOST_TRIALS - 1
+        part = budget.share(left if final else share)
+        answer = plan(replace(problem, tours=tours), part, seed, progress)
         expansions += answer.counters.get("expansions", 0)
         bound = answer.lower_bound if trial == 0 else bound
         found = bool(answer)
@@ -53,7 +54,10 @@ def plan_in_order(
             final = final or budget.is_unlimited
         if final or answer.counters.get("interrupted") or (not found and budget.is_unlimited):
             break
-        if kept is None and found:
+        left -= share
+        if not found:
+            share *= 2.0
+        elif kept is None:
             tours, _ = _with_times(tours, legs, finished)
     chosen = kept if kept is not None else answer
     early = _early(problem.tours, chosen, finished) if kept is None and found else ()

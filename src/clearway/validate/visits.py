@@ -53,7 +53,9 @@ def schedule_of(record: PlanRecord, steps: dict[str, Steps]) -> Schedule:
     for _ in range(1 + sum(len(services) for services in schedule.values())):
         for name, services in schedule.items():
             _place(services, rests[name])
-        waiting = _wait_for_partners(schedule) + _wait_for_tasks(schedule)
+        waiting = _wait_for_partners(schedule)
+        if record.status:  # else what is waited for may not be planned
+            waiting += _wait_for_tasks(schedule)
         if not waiting:
             break
     for service in waiting:
