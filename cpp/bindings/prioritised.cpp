@@ -28,12 +28,14 @@ struct TeamAnswer {
 
 TeamAnswer answer_of(const std::vector<Model>& models, std::vector<Agent> agents,
                      const TeamParams& params, std::uint32_t seed, std::int64_t expansions,
-                     std::optional<double> seconds, std::optional<ProgressCall> progress) {
+                     std::optional<double> seconds, std::optional<ProgressCall> progress,
+                     bool improve) {
   TeamAnswer answer;
   const Clock::time_point begin = Clock::now();
   Budget budget;
   budget.expansions = expansions;
   budget.timed = seconds.has_value();
+  budget.improve = improve;
   budget.stop = [&] {
     if (seconds && std::chrono::duration<double>(Clock::now() - begin).count() > *seconds) {
       return true;
@@ -205,7 +207,7 @@ void bind_prioritised(nb::module_& m) {
   m.def("trace_tour", &trace_tour, "models"_a, "agents"_a, "params"_a, "tours"_a, "robot"_a,
         "Search one robot's tour among others' and tell the states expanded, in order.");
   m.def("plan_team", &answer_of, "models"_a, "agents"_a, "params"_a, "seed"_a, "expansions"_a = -1,
-        "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(),
+        "seconds"_a.none() = nb::none(), "progress"_a.none() = nb::none(), "improve"_a = true,
         "Plan a team, then plan it better until the budget or an interrupt ends that.");
 }
 

@@ -677,7 +677,7 @@ def trace_tour(models: Sequence[Model], agents: Sequence[Agent], params: TeamPar
     Search one robot's tour among others' and tell the states expanded, in order.
     """
 
-def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None) -> TeamAnswer:
+def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None, improve: bool = True) -> TeamAnswer:
     """
     Plan a team, then plan it better until the budget or an interrupt ends that.
     """

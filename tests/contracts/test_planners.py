@@ -110,6 +110,14 @@ def test_nobody_waits_for_its_time_where_another_must_pass(solve):
     assert plan.trajectories["a"].stops[0].arrive == 60_000
 
 
+def test_a_first_plan_is_not_improved_where_nobody_asks_for_more(planner):
+    """It is the plan that an unlimited search ends with; what is left of the effort stays."""
+    problem = random_team(3)
+    first = planner(problem, Budget(expansions=200_000, improve=False), 0)
+    assert first.trajectories == planner(problem, Budget(), 0).trajectories
+    assert first.counters["expansions"] < 200_000
+
+
 def test_a_task_of_two_visits_is_assigned_once(solve):
     """Tasks count in the order of their first visit, and parking belongs to none."""
     visits = [

@@ -115,21 +115,46 @@ def test_what_never_settles_is_told_with_the_tasks():
 
 
 def test_a_budget_is_shared_out_and_never_exceeded():
-    """Small shares until the order is kept, then the rest."""
+    """Small shares for first plans until the order is kept, then the rest."""
     planner = Stubborn()
     plan_in_order(planner, two(), Budget(seconds=16.0, expansions=1600), 0)
     *trials, last = planner.budgets
-    assert set(trials) == {Budget(seconds=16.0 * SHARE, expansions=100)}
+    assert set(trials) == {Budget(seconds=16.0 * SHARE, expansions=100, improve=False)}
+    assert last.improve
     assert sum(b.expansions for b in planner.budgets) == 1600
     assert last.seconds == 16.0 - len(trials)
 
 
 def test_once_the_order_is_kept_the_rest_of_the_budget_improves_the_plan():
-    """Of 16,000 expansions 1000 find the times, and more of the rest are spent."""
-    plan = plan_in_order(PrioritisedPlanner(), two(), Budget(expansions=16_000), 0)
+    """A first plan costs little, and all but that is for the second one."""
+    spent = []
+
+    def planner(problem, budget, seed, progress=None):
+        answer = PrioritisedPlanner()(problem, budget, seed, progress)
+        spent.append((budget, answer.counters["expansions"]))
+        return answer
+
+    budget = Budget(expansions=80_000)
+    plan = plan_in_order(planner, two(), budget, 0)
     assert judged(two(), plan) == []
-    assert plan.counters["trials"] == 2
-    assert plan.counters["expansions"] <= 16_000
+    assert [given.improve for given, _ in spent] == [False, True]
+    assert spent[1][0].expansions == budget.expansions - spent[0][1]
+    assert plan.counters["expansions"] == sum(count for _, count in spent) <= budget.expansions
+
+
+def test_a_share_that_is_too_small_for_a_plan_is_doubled():
+    """A sixteenth, an eighth, and then the plan that a quarter is enough for."""
+    shares = []
+
+    def planner(problem, budget, seed, progress=None):
+        shares.append(budget.seconds)
+        if budget.seconds < 4.0:
+            return Plan(Status.STOPPED, {}, problem.tours, {}, reason="the budget ended")
+        return PrioritisedPlanner()(problem, Budget(), seed, progress)
+
+    plan = plan_in_order(planner, two(), Budget(seconds=16.0), 0)
+    assert plan.status is Status.SOLVED
+    assert shares == [1.0, 2.0, 4.0, 9.0]
 
 
 def test_tours_that_wait_for_each_other_are_told():

@@ -169,10 +169,11 @@ def test_due_times_go_before_costs():
 
 
 def test_a_limited_budget_is_shared_and_its_rest_goes_into_the_best_routes():
-    """An eighth for each of two plans, three quarters for the better routes."""
+    """At most an eighth for each of two first plans, of which they take 10 expansions each."""
     offices = Offices([BOTH, SWAPPED], [20.0, 15.0, 14.0])
     plan = offices.run(1, Budget(expansions=800))
-    assert [budget.expansions for budget in offices.budgets] == [100, 100, 600]
+    assert [budget.expansions for budget in offices.budgets] == [100, 100, 780]
+    assert [budget.improve for budget in offices.budgets] == [False, False, True]
     assert offices.planned == [BOTH, SWAPPED, SWAPPED]
     assert plan.trajectories["a"].end == 14_000
     assert plan.counters["reassignment_gain_permille"] == 250
@@ -183,7 +184,7 @@ def test_who_finds_no_plan_in_its_share_has_the_rest_for_it():
     """The first routes are planned once more."""
     offices = Offices([BOTH], [20.0, 18.0], solved=[False, True])
     plan = offices.run(1, Budget(expansions=800))
-    assert [budget.expansions for budget in offices.budgets] == [100, 700]
+    assert [budget.expansions for budget in offices.budgets] == [100, 790]
     assert plan
     assert plan.trajectories["a"].end == 18_000
 

@@ -10,7 +10,8 @@ namespace clearway {
 struct Budget {
   std::int64_t expansions = -1;  // negative: unlimited
   std::function<bool()> stop;
-  bool timed = false;  // whether `stop` will say so some time
+  bool timed = false;   // whether `stop` will say so some time
+  bool improve = true;  // whether effort that a first plan leaves is for a better one
   std::int64_t spent = 0;
   bool ended = false;
 

@@ -193,7 +193,7 @@ TeamResult plan_team(const std::vector<Model>& models, std::vector<Agent> agents
   const int total = static_cast<int>(team.size());
   if (progress) progress(total, total, budget.spent, result.first_cost);
   // Without an end to its effort the first plan is the answer.
-  if (budget.expansions >= 0 || budget.timed) {
+  if (budget.improve && (budget.expansions >= 0 || budget.timed)) {
     NeighbourhoodSearch(team, params, progress)(seed, budget, result);
   }
   return result;

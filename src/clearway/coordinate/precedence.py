@@ -7,9 +7,9 @@ from clearway.model import Plan, Problem, Status, Visit, to_seconds
 from clearway.plan.bounds import Leg, tour_bounds
 from clearway.protocols import Budget, Planner, Progress
 
-# Plans made until one keeps the order. Of a limited budget, those that look for times have this
-# share, doubled where it was not enough for any plan; the last one has the rest.
-MOST_TRIALS = 9
+# Plans made until one keeps the order. Of a limited budget, first plans that look for times have
+# this share, doubled where it was not enough for one; the last plan has the rest.
+MOST_TRIALS = 12
 SHARE = 1.0 / 16.0
 
 Tours = Mapping[str, tuple[Visit, ...]]
@@ -40,10 +40,11 @@ def plan_in_order(
         reason = f"the tours wait for each other at {', '.join(entangled)}"
         return _nothing(problem, reason, entangled)
     kept, bound, expansions = None, None, 0
-    share, left = SHARE, 1.0
+    share, parts = SHARE, 0.0
     for trial in range(MOST_TRIALS):
+        left = 1.0 - budget.spent(parts, expansions)
         final = kept is not None or left < 2.0 * share or trial == MOST_TRIALS - 1
-        part = budget.share(left if final else share)
+        part = budget.share(left) if final else budget.share(share).first_plan
         answer = plan(replace(problem, tours=tours), part, seed, progress)
         expansions += answer.counters.get("expansions", 0)
         bound = answer.lower_bound if trial == 0 else bound
@@ -51,10 +52,10 @@ def plan_in_order(
         finished = _finished(problem.tours, answer)
         if found and not _early(problem.tours, answer, finished):
             kept = answer
-            final = final or budget.is_unlimited
+            final = final or budget.is_unlimited or not budget.improve
         if final or answer.counters.get("interrupted") or (not found and budget.is_unlimited):
             break
-        left -= share
+        parts += share
         if not found:
             share *= 2.0
         elif kept is None:

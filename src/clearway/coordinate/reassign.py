@@ -9,7 +9,7 @@ from clearway.coordinate.value import Value, lateness
 from clearway.model import Plan, Scenario, Trajectory, Visit, to_seconds
 from clearway.protocols import AssignmentProblem, Budget, Routes
 
-# Share of a limited budget that all plans but the last one have together.
+# Share of a limited budget that all first plans have together.
 TRIALS = 0.25
 
 
@@ -19,8 +19,8 @@ class Reassignment:
 
     A leg that lasts longer in a plan than was believed, for waits and detours, or less long, is
     believed to last as long from then on, for that robot. The best plan is kept: the one least
-    late where tasks are due, then of the least value. The rest of a limited budget goes into
-    one more plan of its routes.
+    late where tasks are due, then of the least value. These are first plans; the rest of a
+    limited budget goes into one more of the best routes.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Reassignment:
         """Return the best plan that comes of the first routes; its counters tell the gain."""
         part = TRIALS / (self.rounds + 1)
         tried = [routes]
-        plans = [self.plan(routes, budget.share(part))]
+        plans = [self.plan(routes, budget.share(part).first_plan)]
         for _ in range(self.rounds):
             if not plans[-1] or plans[-1].counters.get("interrupted"):
                 break
@@ -53,7 +53,7 @@ class Reassignment:
             if routes in tried:
                 break
             tried.append(routes)
-            plans.append(self.plan(routes, budget.share(part)))
+            plans.append(self.plan(routes, budget.share(part).first_plan))
         number = min(
             (i for i, plan in enumerate(plans) if plan),
             key=lambda i: self._worth(plans[i]),
@@ -63,12 +63,13 @@ class Reassignment:
         if number:
             gain = 1.0 - self._worth(best)[1] / self._worth(plans[0])[1]
         if not (budget.is_unlimited or plans[-1].counters.get("interrupted")):
-            plans.append(self.plan(tried[number], budget.share(1.0 - part * len(plans))))
+            spent = budget.spent(part * len(plans), _expansions(plans))
+            plans.append(self.plan(tried[number], budget.share(1.0 - spent)))
             if not best or (plans[-1] and self._worth(plans[-1]) <= self._worth(best)):
                 best = plans[-1]
         counters = {
             **best.counters,
-            "expansions": sum(plan.counters.get("expansions", 0) for plan in plans),
+            "expansions": _expansions(plans),
             "interrupted": plans[-1].counters.get("interrupted", 0),
             "reassigned": number,
             "reassignment_gain_permille": round(1000.0 * gain),
@@ -104,6 +105,10 @@ def learned(
                 inner[k, j] = work.speed * sum(part or 0.0 for part in later)
             before = j
     return replace(work, start_to_task=start, task_to_task=between, inner=inner)
+
+
+def _expansions(plans: Sequence[Plan]) -> int:
+    return sum(plan.counters.get("expansions", 0) for plan in plans)
 
 
 def _leg_seconds(path: Trajectory, tour: Sequence[Visit]) -> Iterator[float | None]:

@@ -54,6 +54,7 @@ class PrioritisedPlanner:
             -1 if budget.expansions is None else budget.expansions,
             budget.seconds,
             _with_bound(progress, bounds.seconds),
+            budget.improve,
         )
         trajectories = {}
         tours, planned = answer.tours, answer.planned

@@ -1,6 +1,6 @@
 """The joint between a planning problem and the algorithms that solve it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from clearway.model import Plan, Problem
@@ -27,11 +27,13 @@ class Progress(Protocol):
 class Budget:
     """How much effort a search may spend: seconds, expansions; ``None`` is unlimited.
 
-    Results repeat exactly for a budget of expansions; seconds are only a stop.
+    Results repeat exactly for a budget of expansions; seconds are only a stop. Once it has a
+    plan, a planner may go on to improve it with what is left, unless ``improve`` is false.
     """
 
     seconds: float | None = None
     expansions: int | None = None
+    improve: bool = True
 
     def __post_init__(self) -> None:
         if self.seconds is not None and not self.seconds > 0.0:
@@ -44,12 +46,29 @@ class Budget:
         """Whether nothing ends a search but its own end."""
         return self.seconds is None and self.expansions is None
 
+    @property
+    def first_plan(self) -> "Budget":
+        """The same effort at most, for a first plan only."""
+        return replace(self, improve=False)
+
     def share(self, part: float) -> "Budget":
-        """Return that part, in (0, 1], of the effort."""
+        """Return that part, in [0, 1], of the effort."""
         return Budget(
             None if self.seconds is None else part * self.seconds,
-            None if self.expansions is None else int(part * self.expansions),
+            None if self.expansions is None else round(part * self.expansions),
+            self.improve,
         )
+
+    def spent(self, parts: float, expansions: int) -> float:
+        """Return which part is spent by plans that got these parts and expanded so many states.
+
+        Expansions are known; of seconds, which nobody counts, whole parts are spent.
+        """
+        if self.seconds is not None:
+            return parts
+        if self.expansions is not None:
+            return min(1.0, expansions / max(self.expansions, 1))
+        return 0.0
 
 
 class Planner(Protocol):
