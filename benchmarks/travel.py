@@ -1,11 +1,12 @@
 """What travel costs and reassignment buy: sums of costs and CPU side by side, in one run.
 
-Warehouses of 4 robots and 12 tasks, and of 8 and 24, 20 seeds each; first plans, without a budget.
+Warehouses of 4 robots and 12 tasks, and of 8 and 24, 20 seeds each; first plans, or with a budget
+of expansions the best it allows.
 ``both`` is sum of costs and makespan together, which is what assigners with equal weights
 minimise (but for turns); it is compared with that of grid distances and no round. ``better`` counts
 seeds whose plan is not the first one; CPU seconds are those of assigning and planning, per seed.
 
-    python benchmarks/travel.py [SEEDS]
+    python benchmarks/travel.py [SEEDS [EXPANSIONS]]
 """
 
 import sys
@@ -22,6 +23,7 @@ ROUNDS = (0, 1, 3)
 
 def main() -> None:
     seeds = int(sys.argv[1]) if len(sys.argv) > 1 else 20
+    budget = Budget(expansions=int(sys.argv[2])) if len(sys.argv) > 2 else Budget()
     print(
         "| robots, tasks | travel | rounds | solved | sum s | makespan s | both | better | CPU s |"
     )
@@ -35,7 +37,7 @@ def main() -> None:
                 sums, makespans, solved, better = [], [], 0, 0
                 begin = time.process_time()
                 for seed, site in enumerate(sites):
-                    plan = plan_once(site, system, Budget(), seed)
+                    plan = plan_once(site, system, budget, seed)
                     ends = [path.end / 1000.0 for path in plan.trajectories.values()]
                     sums.append(sum(ends))
                     makespans.append(max(ends))

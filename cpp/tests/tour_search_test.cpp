@@ -266,6 +266,10 @@ TEST_CASE("Who comes too early waits at the visit, and looks for no other way me
   CHECK(tour.arrival == 70000);
   CHECK(tour.cost == doctest::Approx(70000));
   CHECK(e.trace.size() < 10);
+  // It has stood at its start for most of the time, and was there long before.
+  REQUIRE(tour.pieces.front().mode < 0);
+  CHECK(tour.pieces.front().end >= 40000);
+  CHECK(tour.pieces.front().end <= 51000);
   // The first of three visits need not be hurried to either: 2 m before, 2 m after.
   e.legs.insert(e.legs.begin(), {{3, 6, 0}, 0, 0, 0.0});
   const TourResult longer = e.run();

@@ -7,7 +7,7 @@ import pytest
 from tests.plan.rooms import CART, EAST, WEST, judged, room, team, to
 
 from clearway.coordinate.precedence import SHARE, plan_in_order
-from clearway.model import Plan, Status, Stop, Trajectory
+from clearway.model import Plan, Site, Status, Stop, Trajectory
 from clearway.plan import PrioritisedPlanner
 from clearway.protocols import Budget
 
@@ -86,6 +86,19 @@ def test_where_a_task_takes_longer_than_its_bound_the_next_plan_waits_for_it():
     assert plan.counters["trials"] == 2
     done = times(problem, plan)
     assert done["b 3/5"][0] == done["a 9/1"][1] > 13.5
+
+
+def test_nobody_waits_where_it_keeps_those_away_whom_it_waits_for():
+    """a serves at the mouth of a dead end of one lane, after b has served at its bottom."""
+    dead_end = Site(((0, 0), (6, 0), (16, 0), (16, 1), (6, 1), (6, 6), (0, 6)))
+    problem = team(
+        dead_end,
+        (CART, (4.0, 3.0, EAST), waiting(to(8.0, 0.5), "b 14/0.5"), to(4.0, 3.0, EAST)),
+        (CART, (1.0, 5.0, EAST), to(14.0, 0.5, EAST, 5.0), to(1.0, 5.0, EAST)),
+    )
+    plan = plan_in_order(PrioritisedPlanner(), problem, Budget(), 0)
+    assert plan.status is Status.SOLVED
+    assert judged(problem, plan) == []
 
 
 class Stubborn:
