@@ -155,6 +155,24 @@ def test_once_the_order_is_kept_the_rest_of_the_budget_improves_the_plan():
     assert plan.counters["expansions"] == sum(count for _, count in spent) <= budget.expansions
 
 
+def test_an_interrupt_ends_it_with_the_plan_that_keeps_the_order():
+    """The first plan is in order; the second one is interrupted, and no better."""
+    asked = []
+
+    def planner(problem, budget, seed, progress=None):
+        asked.append(budget)
+        answer = PrioritisedPlanner()(problem, Budget(), seed, progress)
+        if len(asked) == 1:
+            return answer
+        stopped = {**answer.counters, "interrupted": 1}
+        return replace(answer, status=Status.STOPPED, reason="interrupted", counters=stopped)
+
+    plan = plan_in_order(planner, two(), Budget(expansions=80_000), 0)
+    assert plan.status is Status.SOLVED
+    assert plan.counters["interrupted"] == 1
+    assert len(asked) == 2
+
+
 def test_a_share_that_is_too_small_for_a_plan_is_doubled():
     """A sixteenth, an eighth, and then the plan that a quarter is enough for."""
     shares = []

@@ -29,8 +29,8 @@ def plan_in_order(
     finished, then, where a plan shows that this is later, that. Once these times do, the rest
     of a limited budget goes into one more plan. The lower bound is that of the first times.
 
-    Where the order is not kept in the end, the plan is ``stopped`` and its reason names the
-    tasks that begin too early.
+    Tasks that are in no tour are finished already. Where the order is not kept in the end, the
+    plan is ``stopped`` and its reason names the tasks that begin too early.
     """
     if not any(visit.after for tour in problem.tours.values() for visit in tour):
         return plan(problem, budget, seed, progress)
@@ -62,7 +62,12 @@ def plan_in_order(
             tours, _ = _with_times(tours, legs, finished)
     chosen = kept if kept is not None else answer
     early = _early(problem.tours, chosen, finished) if kept is None and found else ()
-    counters = {**chosen.counters, "expansions": expansions, "trials": trial + 1}
+    counters = {
+        **chosen.counters,
+        "expansions": expansions,
+        "interrupted": answer.counters.get("interrupted", 0),
+        "trials": trial + 1,
+    }
     chosen = replace(chosen, tours=problem.tours, lower_bound=bound, counters=counters)
     if not early:
         return chosen
@@ -116,7 +121,10 @@ def _early(tours: Tours, plan: Plan, finished: Mapping[str, float]) -> tuple[str
         str(tours[robot][stop.visit].task)
         for robot, path in plan.trajectories.items()
         for stop in path.stops
-        if any(to_seconds(stop.arrive) < finished[task] for task in tours[robot][stop.visit].after)
+        if any(
+            to_seconds(stop.arrive) < finished.get(task, 0.0)
+            for task in tours[robot][stop.visit].after
+        )
     )
 
 

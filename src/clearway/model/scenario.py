@@ -22,6 +22,15 @@ class Scenario:
     settings: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
 
+    def __post_init__(self) -> None:
+        known = {order.task.id for order in self.orders}
+        for order in self.orders:
+            for other in order.after:
+                if other not in known:
+                    raise ValueError(
+                        f"task {order.task.id} waits for {other}, which is no task of {self.name}"
+                    )
+
     def type_of(self, robot: Robot) -> RobotType:
         """Return the type of ``robot``."""
         return self.robot_types[robot.type]
