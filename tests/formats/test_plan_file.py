@@ -81,7 +81,7 @@ def full_record() -> PlanRecord:
         robot_types={"lift": lift, "puck": puck},
         robots=(Robot("r1", "lift", start, 0.25, "forward"), Robot("r2", "puck", start)),
         tours={
-            "r1": (Visit("t1", path.final_pose, 2.0, "pick", "lift", ("r2",)),),
+            "r1": (Visit("t1", path.final_pose, 2.0, "pick", "lift", ("r2",), 1.5, ("t0",), 3.0),),
             "r2": (Visit(None, start),),
         },
         tracks={"r1": sample(path, modes=True)},
@@ -137,7 +137,11 @@ def test_the_file_is_json_with_the_promised_keys() -> None:
         "load": "pick",
         "needs": "lift",
         "with": ["r2"],
+        "not_before": 1.5,
+        "after": ["t0"],
+        "due": 3.0,
     }
+    assert set(content["robots"][1]["visits"][0]) == {"task", "pose", "service"}
     assert content["pieces"]["r1"]["pieces"] == [
         [7, "forward", 3.0, 3.0, 0.1, 1.0, 0.0, 0.0, True, 500, 1700]
     ]
@@ -224,6 +228,9 @@ NAN, MISSING = math.nan, object()
         ("robots.0.start", [1, 2], "robots[0].start"),
         ("robots.0.visits.0.pose.2", NAN, "robots[0].visits[0].pose[2]"),
         ("robots.0.visits.0.service", -1, "robots[0].visits[0].service"),
+        ("robots.0.visits.0.not_before", -1, "robots[0].visits[0].not_before"),
+        ("robots.0.visits.0.due", "soon", "robots[0].visits[0].due"),
+        ("robots.0.visits.0.after", "t0", "robots[0].visits[0].after"),
         ("robots.0.visits.0.load", "carry", "robots[0].visits[0].load"),
         ("robots.0.visits.0.with", ["r9"], "robots[0].visits[0].with[0]"),
         ("assignment.r9", ["t1"], "assignment.r9"),
