@@ -856,3 +856,13 @@ class ConflictAnswer:
 
 def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
     """Plan a team by conflict-based search on bodies."""
+
+class LoneLeg:
+    """From one pose to another, with a body."""
+
+    def __init__(self, start: Pose, goal: Pose, body: int) -> None: ...
+
+def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) -> list[int]:
+    """
+    Ticks that each leg takes with nobody else on the site; -1 where no way is found.
+    """

@@ -268,7 +268,12 @@ bool LatticeSearch::covers(const Rule& rule, int leg, std::int32_t node, const L
 Slot LatticeSearch::earliest(int leg, std::int32_t node, std::size_t motion,
                              const Lattice::Way& way, Slot from) {
   const bool arrives = motion >= lattices_[static_cast<std::size_t>(leg)].num_primitives();
-  if (arrives && leg + 1 == num_legs()) from = std::max(from, least_rest_ - way.slots);
+  if (arrives) {
+    // It comes no sooner than the visit may begin.
+    const Ticks begin = legs_[static_cast<std::size_t>(leg)].not_before;
+    from = std::max(from, (begin - way.drive.duration + params_.slot - 1) / params_.slot);
+    if (leg + 1 == num_legs()) from = std::max(from, least_rest_ - way.slots);
+  }
   const auto& rules = motion_rules_[static_cast<std::size_t>(leg)];
   if (!rules.empty()) {
     const Lattice& lattice = lattices_[static_cast<std::size_t>(leg)];
