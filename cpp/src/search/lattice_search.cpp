@@ -269,8 +269,10 @@ Slot LatticeSearch::earliest(int leg, std::int32_t node, std::size_t motion,
                              const Lattice::Way& way, Slot from) {
   const bool arrives = motion >= lattices_[static_cast<std::size_t>(leg)].num_primitives();
   if (arrives) {
-    // It comes no sooner than the visit may begin.
-    const Ticks begin = legs_[static_cast<std::size_t>(leg)].not_before;
+    // It comes no sooner than the visit may begin, but where it may stay for good.
+    const Leg& visit = legs_[static_cast<std::size_t>(leg)];
+    const bool stays = leg + 1 == num_legs() && visit.body == rest_body_;
+    const Ticks begin = stays ? 0 : visit.not_before;
     from = std::max(from, (begin - way.drive.duration + params_.slot - 1) / params_.slot);
     if (leg + 1 == num_legs()) from = std::max(from, least_rest_ - way.slots);
   }
@@ -621,7 +623,8 @@ void LatticeSearch::extract(std::int32_t index, Route& route) {
     }
     if (label.leg == parent.leg) continue;
     at = lattice.leg().goal;
-    route.stops.push_back({parent.leg, t, label.t * params_.slot});
+    const Ticks wait = std::max(0, lattice.leg().not_before - t);
+    route.stops.push_back({parent.leg, t + wait, label.t * params_.slot + wait});
     route.arrival = t;
     stand(label.t * params_.slot);
     if (label.leg == num_legs()) route.pieces.push_back({t, t + 1, at, {}, -1, rest_body_});
