@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bind.hpp"
+#include "clearway/motion/ramp.hpp"
 #include "clearway/motion/reeds_shepp.hpp"
 #include "clearway/motion/table.hpp"
 
@@ -33,18 +34,40 @@ void bind_motion(nb::module_& m) {
       .value("TURN_DRIVE_TURN", Family::kTurnDriveTurn)
       .value("SLIDE", Family::kSlide)
       .value("TRANSLATE", Family::kTranslate);
+  nb::class_<Step>(m, "Step", "One part of a connection or of a primitive.")
+      .def(
+          "__init__",
+          [](Step* self, int mode, const Twist& twist, Ticks duration) {
+            new (self) Step{mode, twist, duration};
+          },
+          "mode"_a, "twist"_a, "duration"_a)
+      .def_ro("mode", &Step::mode)
+      .def_ro("twist", &Step::twist)
+      .def_ro("duration", &Step::duration);
   nb::class_<Primitive>(m, "Primitive", "One short motion of a table.")
       .def(
           "__init__",
           [](Primitive* self, int mode, const Twist& twist, int turn_steps, Ticks duration) {
-            new (self) Primitive{mode, twist, turn_steps, duration, ~0ULL};
+            new (self) Primitive{mode, twist, turn_steps, duration, ~0ULL, {}};
           },
           "mode"_a, "twist"_a, "turn_steps"_a, "duration"_a)
       .def_ro("mode", &Primitive::mode)
       .def_ro("twist", &Primitive::twist)
       .def_ro("turn_steps", &Primitive::turn_steps)
       .def_ro("duration", &Primitive::duration)
-      .def_rw("allowed_from", &Primitive::from, "Modes in which it may begin, as bits.");
+      .def_rw("allowed_from", &Primitive::from,
+              "Modes in which it may begin, as bits; the last of 64: in none.")
+      .def_rw("steps", &Primitive::steps, "How it is driven; empty: evenly.");
+  nb::class_<Pace>(m, "Pace", "A mode at a speed.")
+      .def(
+          "__init__",
+          [](Pace* self, int moving, int course, double speed) {
+            new (self) Pace{moving, course, speed};
+          },
+          "moving"_a, "course"_a, "speed"_a)
+      .def_ro("moving", &Pace::moving)
+      .def_ro("course", &Pace::course)
+      .def_ro("speed", &Pace::speed);
   nb::class_<Connection>(m, "Connection", "How one family of analytic curves is driven.")
       .def(nb::init<>())
       .def_rw("family", &Connection::family)
@@ -72,10 +95,6 @@ void bind_motion(nb::module_& m) {
       .def_rw("turning", &Objective::turning)
       .def_rw("mode_switch", &Objective::mode_switch)
       .def_rw("waiting", &Objective::waiting);
-  nb::class_<Step>(m, "Step", "One part of a connection.")
-      .def_ro("mode", &Step::mode)
-      .def_ro("twist", &Step::twist)
-      .def_ro("duration", &Step::duration);
   nb::class_<MotionTable>(m, "MotionTable", "A robot's motions as a table.")
       .def(nb::init<>())
       .def_rw("headings", &MotionTable::headings)
@@ -84,15 +103,32 @@ void bind_motion(nb::module_& m) {
       .def_rw("primitives", &MotionTable::primitives)
       .def_rw("connections", &MotionTable::connections)
       .def_rw("turn_arm", &MotionTable::turn_arm)
-      .def_rw("switch_duration", &MotionTable::switch_duration);
+      .def_rw("switch_duration", &MotionTable::switch_duration)
+      .def_rw("paces", &MotionTable::paces, "What each mode is, where acceleration is limited.")
+      .def_rw("acceleration", &MotionTable::acceleration)
+      .def_rw("deceleration", &MotionTable::deceleration);
+  m.def(
+      "ramp",
+      [](double length, double enter, double leave, double top, double up, double down) {
+        std::vector<std::pair<double, Ticks>> out;
+        if (const auto ramp = Ramp::make(length, enter, leave, top, up, down)) {
+          std::vector<Step> steps;
+          ramp->cut({0, {length, 0.0, 0.0}, 0}, steps);
+          for (const Step& step : steps) out.emplace_back(step.twist.a, step.duration);
+        }
+        return out;
+      },
+      "length"_a, "enter"_a, "leave"_a, "top"_a, "acceleration"_a, "deceleration"_a,
+      "Steps of even speed (m, ticks) from one speed to another; none where it is too short.");
   m.def(
       "connect",
-      [](const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to) {
+      [](const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,
+         int mode) {
         std::vector<Shot> shots;
-        connect(table, objective, from, to, 1, shots);
+        connect(table, objective, from, to, 1, shots, mode);
         return shots.empty() ? std::vector<Step>{} : shots.front().steps;
       },
-      "table"_a, "objective"_a, "start"_a, "goal"_a,
+      "table"_a, "objective"_a, "start"_a, "goal"_a, "mode"_a = -1,
       "Steps of the best obstacle-free connection between two poses.");
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "clearway/motion/ramp.hpp"
 #include "clearway/motion/reeds_shepp.hpp"
 #include "clearway/motion/table.hpp"
 
@@ -39,14 +40,16 @@ void add_drive(const Connection& how, double length, double turn, std::vector<St
   }
   steps.push_back({mode,
                    {length * std::cos(how.direction), length * std::sin(how.direction), turn},
-                   std::max<Ticks>(1, to_ticks(std::abs(length) / speed))});
+                   std::max<Ticks>(1, to_ticks(std::abs(length) / speed)),
+                   speed});
 }
 
 void add_slide(const Connection& how, double length, std::vector<Step>& steps) {
   if (std::abs(length) < kNothing) return;
   steps.push_back({length > 0.0 ? how.left : how.right,
                    {0.0, length, 0.0},
-                   std::max<Ticks>(1, to_ticks(std::abs(length) / how.sideways_speed))});
+                   std::max<Ticks>(1, to_ticks(std::abs(length) / how.sideways_speed)),
+                   how.sideways_speed});
 }
 
 double drive_cost(const Objective& objective, const Connection& how, double length, bool turning) {
@@ -99,6 +102,27 @@ double translate_cost(const Objective& objective, const Connection& how, double 
   return translate_seconds(how, along, across, spread) * kTicksPerSecond;
 }
 
+// The steps of a candidate, each at its top speed.
+void spell(const Candidate& pick, std::vector<Step>& steps) {
+  const Connection& how = *pick.connection;
+  if (how.family == Family::kReedsShepp) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(pick.word.size); ++k) {
+      const double length = pick.word.length[k] * how.radius;
+      add_drive(how, length, pick.word.length[k] * static_cast<int>(pick.word.turn[k]), steps);
+    }
+  } else if (how.family == Family::kTranslate) {
+    add_turn(how, pick.turn0, steps);
+    add_translate(how, pick.along, pick.across, pick.spread, steps);
+    add_turn(how, pick.turn1, steps);
+  } else {
+    add_turn(how, pick.turn0, steps);
+    if (pick.across_first) add_slide(how, pick.across, steps);
+    add_drive(how, pick.along, 0.0, steps);
+    if (!pick.across_first) add_slide(how, pick.across, steps);
+    add_turn(how, pick.turn1, steps);
+  }
+}
+
 // Put the standing time between unlike modes in, and add everything up.
 void add_switches(const MotionTable& table, const Objective& objective, Shot& shot) {
   std::vector<Step> steps;
@@ -139,15 +163,24 @@ double objective_of(const MotionTable& table, const Objective& objective, const 
 }
 
 void connect(const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,
-             std::size_t count, std::vector<Shot>& out) {
+             std::size_t count, std::vector<Shot>& out, int mode) {
   out.clear();
   constexpr std::size_t kMost = 6;
   Candidate best[kMost];
   std::size_t num_best = 0;
   count = std::min(count, kMost);
-  const auto offer = [&](const Candidate& c) {
+  std::vector<Step> steps;
+  std::vector<double> speeds;
+  const auto offer = [&](Candidate c) {
     if (c.cost >= 1e17) return;
     if (num_best == count && c.cost >= best[num_best - 1].cost) return;
+    if (table.is_limited()) {
+      steps.clear();
+      spell(c, steps);
+      if (!speeds_between(table, mode, steps, speeds)) return;
+      if (objective.time) c.cost = seconds_between(table, steps, speeds) * kTicksPerSecond;
+      if (num_best == count && c.cost >= best[num_best - 1].cost) return;
+    }
     std::size_t at = num_best < count ? num_best++ : num_best - 1;
     while (at > 0 && best[at - 1].cost > c.cost) {
       best[at] = best[at - 1];
@@ -213,23 +246,10 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
   }
   for (std::size_t i = 0; i < num_best; ++i) {
     Shot shot;
-    const Candidate& pick = best[i];
-    if (pick.connection->family == Family::kReedsShepp) {
-      for (std::size_t k = 0; k < static_cast<std::size_t>(pick.word.size); ++k) {
-        const double length = pick.word.length[k] * pick.connection->radius;
-        add_drive(*pick.connection, length,
-                  pick.word.length[k] * static_cast<int>(pick.word.turn[k]), shot.steps);
-      }
-    } else if (pick.connection->family == Family::kTranslate) {
-      add_turn(*pick.connection, pick.turn0, shot.steps);
-      add_translate(*pick.connection, pick.along, pick.across, pick.spread, shot.steps);
-      add_turn(*pick.connection, pick.turn1, shot.steps);
-    } else {
-      add_turn(*pick.connection, pick.turn0, shot.steps);
-      if (pick.across_first) add_slide(*pick.connection, pick.across, shot.steps);
-      add_drive(*pick.connection, pick.along, 0.0, shot.steps);
-      if (!pick.across_first) add_slide(*pick.connection, pick.across, shot.steps);
-      add_turn(*pick.connection, pick.turn1, shot.steps);
+    spell(best[i], shot.steps);
+    if (table.is_limited()) {
+      speeds_between(table, mode, shot.steps, speeds);
+      shot.steps = cut_between(table, shot.steps, speeds);
     }
     add_switches(table, objective, shot);
     out.push_back(std::move(shot));

@@ -98,7 +98,7 @@ class TourRun {
   void learn_distance(int leg);
   void grow_greedy();
   void sort_anew();
-  double estimate(int leg, double x, double y, double theta);
+  double estimate(int leg, double x, double y, double theta, double speed);
   double priority(const Node& node);
   void expand(std::int32_t index);
   void shoot(std::int32_t index);
@@ -201,7 +201,7 @@ void TourRun::look_ahead() {
   tail_.assign(legs_.size(), 0.0);
   for (std::size_t i = legs_.size() - 1; i-- > 0;) {
     const Pose& p = legs_[i].goal;
-    tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta) +
+    tail_[i] = tail_[i + 1] + estimate(static_cast<int>(i) + 1, p.x, p.y, p.theta, 0.0) +
                (s_.objective_.time ? legs_[i].service : 0);
   }
   // Whatever comes early waits: all ways there are worth as much, and the nearest goes first.
@@ -237,7 +237,7 @@ void TourRun::sort_anew() {
   std::make_heap(open_.begin(), open_.end());
 }
 
-double TourRun::estimate(int leg, double x, double y, double theta) {
+double TourRun::estimate(int leg, double x, double y, double theta, double speed) {
   const auto l = static_cast<std::size_t>(leg);
   const Frame& goal = goal_frames_[l];
   const Point local = goal.to_local({x, y});
@@ -248,16 +248,16 @@ double TourRun::estimate(int leg, double x, double y, double theta) {
     metres =
         std::max(metres, static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
   }
-  const double way = s_.objective_.time ? metres / table_.top_speed * kTicksPerSecond : metres;
   const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
-  return std::max(way, exact);
+  if (!s_.objective_.time) return std::max(metres, exact);
+  return std::max(table_.least_ticks(metres, speed), exact - table_.head_start(speed));
 }
 
 // Cost so far plus weighted estimates; later legs weigh more, so that a search held up on one
 // leg does not try all variants of those before it.
 double TourRun::priority(const Node& node) {
   if (node.leg >= static_cast<int>(legs_.size())) return node.cost;
-  const double here = estimate(node.leg, node.x, node.y, theta(node));
+  const double here = estimate(node.leg, node.x, node.y, theta(node), table_.speed(node.mode));
   const double tail = tail_[static_cast<std::size_t>(node.leg)];
   const double f = node.cost + weight_ * here + std::max(weight_, s_.params_.tail_weight) * tail;
   if (!s_.objective_.time) return f;
@@ -270,6 +270,8 @@ double TourRun::priority(const Node& node) {
 Drive TourRun::edge_of(std::int32_t edge) const {
   const auto i = static_cast<std::size_t>(edge);
   if (i < primitive_steps_.size()) {
+    const std::vector<Step>& steps = table_.primitives[i].steps;
+    if (!steps.empty()) return {steps.data(), steps.size(), primitive_steps_[i].duration};
     return {&primitive_steps_[i], 1, primitive_steps_[i].duration};
   }
   const Shot& shot = shots_[i - primitive_steps_.size()];
@@ -442,8 +444,8 @@ bool TourRun::is_useful(const Node& node) {
   if (q_.below == std::numeric_limits<double>::infinity()) return true;
   const auto leg = static_cast<std::size_t>(node.leg);
   if (leg >= legs_.size()) return true;
-  const double ahead = estimate(node.leg, node.x, node.y, theta(node)) + tail_[leg];
-  return node.cost + kCertain * ahead < q_.below;
+  const double here = estimate(node.leg, node.x, node.y, theta(node), table_.speed(node.mode));
+  return node.cost + kCertain * (here + tail_[leg]) < q_.below;
 }
 
 // Remember the best complete way.
@@ -568,8 +570,8 @@ void TourRun::expand(std::int32_t index) {
       body(node.leg).inradius() + legs_[static_cast<std::size_t>(node.leg)].required;
   for (std::size_t i = 0; i < table_.primitives.size(); ++i) {
     const Primitive& p = table_.primitives[i];
-    const bool switching = node.mode >= 0 && p.mode != node.mode;
-    if (node.mode >= 0 && !(p.from >> node.mode & 1U)) continue;
+    const bool switching = node.mode >= 0 && table_.moving(p.mode) != table_.moving(node.mode);
+    if (!p.may_follow(node.mode)) continue;
     const HeadingTable::Landing& landing = headings.landing(node.k, i);
     Node child{};
     child.x = node.x + landing.dx;
@@ -605,7 +607,7 @@ void TourRun::shoot(std::int32_t index) {
   since_shot_ = 0.0;
   const Pose from{node.x, node.y, theta(node)};
   const Ticks leaving = set_out(node);
-  connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_);
+  connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_, node.mode);
   for (Shot& shot : tried_) {
     Node child{};
     child.x = leg.goal.x;
@@ -619,7 +621,8 @@ void TourRun::shoot(std::int32_t index) {
     child.mode = static_cast<std::int16_t>(shot.steps.empty() ? node.mode : shot.steps.back().mode);
     Ticks pause = 0;
     child.step = shot.cost;
-    if (!shot.steps.empty() && node.mode >= 0 && shot.steps.front().mode != node.mode) {
+    if (!shot.steps.empty() && node.mode >= 0 &&
+        shot.steps.front().mode != table_.moving(node.mode)) {
       pause = table_.switch_duration;
       if (!s_.objective_.time) child.step += s_.objective_.mode_switch;
     }
@@ -663,6 +666,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
   open_.push_back({0.0, 0});
   bool by_mode = table_.switch_duration > 0 || !s_.objective_.time;
   for (const Primitive& p : table_.primitives) by_mode = by_mode || p.from != ~0ULL;
+  for (const bool may_wait : table_.rest) by_mode = by_mode || !may_wait;
   cells_.distinguish_modes(by_mode);
   if (legs_.size() >= Cells::kMostLegs || table_.headings > Cells::kMostHeadings ||
       (by_mode && table_.rest.size() >= Cells::kMostModes)) {
@@ -697,8 +701,9 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     }
     const bool can_wait = node.mode < 0 || table_.rest[static_cast<std::size_t>(node.mode)];
     Ticks met = node.t + 1;
-    const Ticks end = can_wait ? meet_.safe_until(standing, at, node.t, node.hits, &met) : node.t;
-    nodes_[static_cast<std::size_t>(index)].end = end;
+    const Ticks end = meet_.safe_until(standing, at, node.t, node.hits, &met);
+    nodes_[static_cast<std::size_t>(index)].end = can_wait ? end : node.t;
+    // At speed the first to come counts as well: who has to wait does so in a state at rest.
     cells_.add(node.x, node.y, node.k, node.leg, node.mode, {node.t, end, node.cost, met});
     if (q_.trace) q_.trace->push_back({{node.x, node.y, theta(node)}, node.t, end, node.leg});
     shoot(index);
@@ -709,7 +714,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
         ++spent_on_[leg] > worth_a_distance(statics(node.leg), standing.inradius())) {
       learn_distance(node.leg);
     }
-    if (end < kNever && can_wait) retry(node, met);
+    if (end < kNever) retry(node, met);
   }
   return found_ == kNone ? result : extract(found_);
 }

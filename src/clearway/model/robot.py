@@ -61,6 +61,11 @@ class Limits:
             raise ValueError(f"reverse_speed must be 0 or above, got {self.reverse_speed}")
 
     @property
+    def has_ramps(self) -> bool:
+        """Whether speed takes time to change."""
+        return self.acceleration is not None or self.deceleration is not None
+
+    @property
     def speed_backwards(self) -> float:
         """Top speed in reverse (m/s)."""
         return self.speed if self.reverse_speed is None else self.reverse_speed

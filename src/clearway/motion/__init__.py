@@ -11,6 +11,7 @@ from clearway.motion.four_wheel import four_wheel
 from clearway.motion.holonomic import holonomic
 from clearway.motion.lattice import LATTICE_HEADINGS, lattice_model
 from clearway.motion.model import Curve, Mode, Motion, MotionModel
+from clearway.motion.ramps import ramped
 
 # By name: the kinematics it fits, and how it is built for a type and a number of headings.
 MODELS: dict[str, tuple[Kinematics, Callable[[RobotType, int], MotionModel]]] = {
@@ -28,7 +29,20 @@ def models_for(kinematics: Kinematics) -> tuple[str, ...]:
 
 
 def model_of(robot_type: RobotType, headings: int) -> MotionModel:
-    """Return the model that the type names, or the one for its kinematics."""
+    """Return the model that the type names, or the one for its kinematics.
+
+    Where the type limits acceleration, its motions are ramps.
+    """
+    model = _unlimited(robot_type, headings)
+    return ramped(model, robot_type.limits) if robot_type.limits.has_ramps else model
+
+
+def can_ramp(robot_type: RobotType) -> bool:
+    """Return whether limits on acceleration can be kept: by modes of one direction of travel."""
+    return all(mode.direction != "any" for mode in _unlimited(robot_type, 16).modes)
+
+
+def _unlimited(robot_type: RobotType, headings: int) -> MotionModel:
     _, build = MODELS[robot_type.motion or models_for(robot_type.kinematics)[0]]
     return build(robot_type, headings)
 
@@ -40,6 +54,7 @@ __all__ = [
     "Mode",
     "Motion",
     "MotionModel",
+    "can_ramp",
     "car",
     "differential",
     "forklift",
@@ -48,4 +63,5 @@ __all__ = [
     "lattice_model",
     "model_of",
     "models_for",
+    "ramped",
 ]

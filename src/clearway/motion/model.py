@@ -24,6 +24,9 @@ class Mode:
     backwards
         Of travel in any direction, top speed of the part that goes backwards (m/s); 0 forbids
         any. ``None``: ``speed``.
+    of
+        The mode of which this one is a speed level: what plans call it. A level is entered and
+        left at ``speed``, a mode that is none of another at rest.
     """
 
     name: str
@@ -32,6 +35,17 @@ class Mode:
     speed: float
     rest: bool = True
     backwards: float | None = None
+    of: str | None = None
+
+    @property
+    def moving(self) -> str:
+        """The mode without its speed."""
+        return self.of or self.name
+
+    @property
+    def pace(self) -> float:
+        """Speed (m/s) at which motions begin and end in it, where acceleration is limited."""
+        return self.speed if self.of else 0.0
 
     @property
     def is_moving(self) -> bool:
@@ -53,13 +67,29 @@ class Mode:
 class Motion:
     """A short motion: whole body-frame displacement ``twist`` (m, m, rad) in ``duration`` (s).
 
-    ``turn_steps`` is the change of heading in steps of a full turn over the model's headings.
+    Parameters
+    ----------
+    mode
+        The mode it ends in; it is driven in that mode, whatever the speed.
+    turn_steps
+        Change of heading in steps of a full turn over the model's headings.
+    enters
+        Modes in which it may begin; empty: in any.
+    pieces
+        Parts of even speed, as shares of the twist and durations (s); empty: it is one part.
     """
 
     mode: str
     twist: tuple[float, float, float]
     turn_steps: int
     duration: float
+    enters: tuple[str, ...] = ()
+    pieces: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def length(self) -> float:
+        """Length (m) of the reference point's way."""
+        return math.hypot(self.twist[0], self.twist[1])
 
 
 @dataclass(frozen=True)
@@ -90,7 +120,8 @@ class MotionModel:
     """Modes, motions and curves of one robot type at ``headings`` headings per full turn.
 
     ``turn_arm`` (m) is the radius of the arc as which turning on the spot is counted in costs
-    of length; ``mode_switch`` (s) the standing time of a change of mode.
+    of length; ``mode_switch`` (s) the standing time of a change of mode. ``acceleration`` and
+    ``deceleration`` (m/s^2) are those of the ramps, which curves are driven with too.
     """
 
     headings: int
@@ -100,6 +131,8 @@ class MotionModel:
     yaw_rate: float
     turn_arm: float
     mode_switch: float = 0.0
+    acceleration: float = math.inf
+    deceleration: float = math.inf
 
     def __post_init__(self) -> None:
         names = [mode.name for mode in self.modes]
@@ -116,6 +149,19 @@ class MotionModel:
                 )
             if motion.duration <= 0.0:
                 raise ValueError(f"motion in mode {motion.mode!r} needs a duration above 0")
+            if unknown := [name for name in motion.enters if name not in names]:
+                raise ValueError(
+                    f"motion in mode {motion.mode!r} begins in mode {unknown[0]!r}, which the "
+                    "model does not have"
+                )
+            if not motion.pieces:
+                continue
+            shares, seconds = (math.fsum(column) for column in zip(*motion.pieces, strict=True))
+            if abs(shares - 1.0) > 1e-9 or abs(seconds - motion.duration) > 1e-9:
+                raise ValueError(
+                    f"the pieces of a motion in mode {motion.mode!r} make {shares:.6f} of it in "
+                    f"{seconds:.6f} s, not all of it in {motion.duration:.6f} s"
+                )
 
     @property
     def top_speed(self) -> float:

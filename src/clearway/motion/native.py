@@ -1,8 +1,12 @@
 """Motion models handed to the native core as its tables."""
 
+import math
+
 from clearway import _core
 from clearway.model import to_ticks
-from clearway.motion.model import Curve, MotionModel
+from clearway.motion.model import Curve, Mode, Motion, MotionModel
+
+NO_MODE = 63  # bit of a robot at rest that has not moved yet
 
 FAMILIES = {
     "reeds_shepp": _core.Family.REEDS_SHEPP,
@@ -21,17 +25,36 @@ def native_table(model: MotionModel) -> _core.MotionTable:
     table.rest = [mode.rest for mode in model.modes]
     table.switch_duration = to_ticks(model.mode_switch)
     table.turn_arm = model.turn_arm
-    table.primitives = [
-        _core.Primitive(
-            number[motion.mode],
-            _core.Twist(*motion.twist),
-            motion.turn_steps,
-            to_ticks(motion.duration),
-        )
-        for motion in model.motions
-    ]
+    table.primitives = [_primitive(model, motion, number) for motion in model.motions]
     table.connections = [_connection(model, curve, number) for curve in model.curves]
+    if math.isfinite(model.acceleration):
+        table.acceleration, table.deceleration = model.acceleration, model.deceleration
+        table.paces = [_pace(model, mode, number) for mode in model.modes]
     return table
+
+
+def _primitive(model: MotionModel, motion: Motion, number: dict[str, int]) -> _core.Primitive:
+    native = _core.Primitive(
+        number[motion.mode], _core.Twist(*motion.twist), motion.turn_steps, to_ticks(motion.duration)
+    )
+    if motion.enters:
+        at_rest = any(model.mode(name).rest for name in motion.enters)
+        native.allowed_from = sum(1 << number[name] for name in motion.enters) | at_rest << NO_MODE
+    moving = number[model.mode(motion.mode).moving]
+    a, b, c = motion.twist
+    native.steps = [
+        _core.Step(moving, _core.Twist(share * a, share * b, share * c), to_ticks(seconds))
+        for share, seconds in motion.pieces
+    ]
+    return native
+
+
+def _pace(model: MotionModel, mode: Mode, number: dict[str, int]) -> _core.Pace:
+    """Return what a mode is at its speed; its course is the first mode it may change with."""
+    first = mode.moving
+    if mode.direction is not None and not model.mode_switch:
+        first = next(other.name for other in model.modes if other.direction == mode.direction)
+    return _core.Pace(number[mode.moving], number[first], mode.pace)
 
 
 def _connection(model: MotionModel, curve: Curve, number: dict[str, int]) -> _core.Connection:

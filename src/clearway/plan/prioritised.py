@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from clearway import _core
 from clearway.model import LOAD_CHANGE, Plan, Problem, Status, to_seconds
-from clearway.motion import models_for
+from clearway.motion import can_ramp, models_for
 from clearway.plan.bounds import lower_bounds
 from clearway.plan.native_team import NativeTeam
 from clearway.protocols import Budget, Progress
@@ -104,13 +104,14 @@ def unplannable(problem: Problem) -> tuple[str, ...]:
                 f"robot type {name}: {robot_type.motion} is no motion model of "
                 f"{robot_type.kinematics} robots; known: {', '.join(known)}"
             )
-        if robot_type.limits.acceleration or robot_type.limits.deceleration:
+        elif robot_type.limits.has_ramps and not can_ramp(robot_type):
             reasons.append(
-                f"robot type {name}: acceleration limits are not planned for; remove them"
+                f"robot type {name}: acceleration limits of robots that drive in any "
+                "direction at once are not planned for; remove them"
             )
     for robot in problem.robots:
         limits = problem.robot_types[robot.type].limits
-        if robot.start_speed and (limits.acceleration or limits.deceleration):
+        if robot.start_speed and limits.has_ramps:
             reasons.append(
                 f"robot {robot.id}: a start in motion is not planned for where acceleration "
                 "is limited"

@@ -23,7 +23,7 @@ def judge_acceleration(
     the body frame, so that a car that goes over from driving to reversing must brake.
     """
     limits = kind.limits
-    if limits.acceleration is None and limits.deceleration is None:
+    if not limits.has_ramps:
         return []
     # The difference of two means is linear between the moments at which a window's end
     # passes a sample, so that it is greatest at one of them.

@@ -17,13 +17,31 @@ inline Ticks to_ticks(double seconds) {
   return static_cast<Ticks>(std::ceil(seconds * kTicksPerSecond - 1e-6));
 }
 
+struct Step {
+  int mode = 0;
+  Twist twist;
+  Ticks duration = 0;
+  double top = 0.0;  // speed that it may have (m/s), where acceleration is limited
+};
+
 // One short motion. `turn_steps` is the change of heading in steps of a full turn / headings.
 struct Primitive {
-  int mode = 0;
+  int mode = 0;  // in which it ends
   Twist twist;
   int turn_steps = 0;
   Ticks duration = 0;
-  std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits
+  std::uint64_t from = ~0ULL;  // modes in which it may begin, as bits; the last bit: in none
+  std::vector<Step> steps;     // how it is driven; empty: evenly
+
+  bool may_follow(int before) const { return from >> (before & 63) & 1U; }
+};
+
+// A mode at a speed: what one moves in, the course within which modes change at speed (each mode
+// on the spot has its own), and the speed (m/s); 0 at rest.
+struct Pace {
+  int moving = 0;
+  int course = 0;
+  double speed = 0.0;
 };
 
 enum class Family { kReedsShepp, kTurnDriveTurn, kSlide, kTranslate };
@@ -53,12 +71,6 @@ struct Objective {
   double waiting = 0.1;      // per second of standing that is not service
 };
 
-struct Step {
-  int mode = 0;
-  Twist twist;
-  Ticks duration = 0;
-};
-
 struct MotionTable {
   int headings = 16;
   double top_speed = 0.0;  // m/s, for heuristics
@@ -67,6 +79,24 @@ struct MotionTable {
   std::vector<Connection> connections;
   double turn_arm = 0.0;      // turning on the spot costs as an arc of this radius (m)
   Ticks switch_duration = 0;  // standing time of a change of moving mode
+  // Where acceleration is limited (m/s^2): what each mode is. Steps are of the modes at rest.
+  std::vector<Pace> paces;
+  double acceleration = 0.0, deceleration = 0.0;
+
+  bool is_limited() const { return !paces.empty(); }
+  double speed(int mode) const {
+    return mode < 0 || paces.empty() ? 0.0 : paces[static_cast<std::size_t>(mode)].speed;
+  }
+  // The mode without its speed.
+  int moving(int mode) const {
+    return mode < 0 || paces.empty() ? mode : paces[static_cast<std::size_t>(mode)].moving;
+  }
+  // No way of that length that begins at that speed and ends at rest takes less.
+  double least_ticks(double metres, double from_speed) const;
+  // By how much it is ahead of who begins at rest.
+  double head_start(double from_speed) const {
+    return from_speed > 0.0 ? 0.5 * from_speed / acceleration * kTicksPerSecond : 0.0;
+  }
 
   double shortest_step() const;  // of the primitives that travel (m)
 
@@ -83,8 +113,9 @@ struct Shot {
 
 double objective_of(const MotionTable& table, const Objective& objective, const Step& step);
 
-// The best `count` ways from one pose to another, cheapest first.
+// The best `count` ways from one pose, and the mode in which one comes there, to another, cheapest
+// first. They end at rest.
 void connect(const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,
-             std::size_t count, std::vector<Shot>& out);
+             std::size_t count, std::vector<Shot>& out, int mode = -1);
 
 }  // namespace clearway
