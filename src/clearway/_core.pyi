@@ -101,6 +101,20 @@ class Family(enum.Enum):
 
     TRANSLATE = 3
 
+class Step:
+    """One part of a connection or of a primitive."""
+
+    def __init__(self, mode: int, twist: Twist, duration: int) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def duration(self) -> int: ...
+
 class Primitive:
     """One short motion of a table."""
 
@@ -120,10 +134,31 @@ class Primitive:
 
     @property
     def allowed_from(self) -> int:
-        """Modes in which it may begin, as bits."""
+        """Modes in which it may begin, as bits; the last of 64: in none."""
 
     @allowed_from.setter
     def allowed_from(self, arg: int, /) -> None: ...
+
+    @property
+    def steps(self) -> list[Step]:
+        """How it is driven; empty: evenly."""
+
+    @steps.setter
+    def steps(self, arg: Sequence[Step], /) -> None: ...
+
+class Pace:
+    """A mode at a speed."""
+
+    def __init__(self, moving: int, course: int, speed: float) -> None: ...
+
+    @property
+    def moving(self) -> int: ...
+
+    @property
+    def course(self) -> int: ...
+
+    @property
+    def speed(self) -> float: ...
 
 class Connection:
     """How one family of analytic curves is driven."""
@@ -273,18 +308,6 @@ class Objective:
     @waiting.setter
     def waiting(self, arg: float, /) -> None: ...
 
-class Step:
-    """One part of a connection."""
-
-    @property
-    def mode(self) -> int: ...
-
-    @property
-    def twist(self) -> Twist: ...
-
-    @property
-    def duration(self) -> int: ...
-
 class MotionTable:
     """A robot's motions as a table."""
 
@@ -332,7 +355,31 @@ class MotionTable:
     @switch_duration.setter
     def switch_duration(self, arg: int, /) -> None: ...
 
-def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose) -> list[Step]:
+    @property
+    def paces(self) -> list[Pace]:
+        """What each mode is, where acceleration is limited."""
+
+    @paces.setter
+    def paces(self, arg: Sequence[Pace], /) -> None: ...
+
+    @property
+    def acceleration(self) -> float: ...
+
+    @acceleration.setter
+    def acceleration(self, arg: float, /) -> None: ...
+
+    @property
+    def deceleration(self) -> float: ...
+
+    @deceleration.setter
+    def deceleration(self, arg: float, /) -> None: ...
+
+def ramp(length: float, enter: float, leave: float, top: float, acceleration: float, deceleration: float) -> list[tuple[float, int]]:
+    """
+    Steps of even speed (m, ticks) from one speed to another; none where it is too short.
+    """
+
+def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose, mode: int = -1) -> list[Step]:
     """Steps of the best obstacle-free connection between two poses."""
 
 class TimedPiece:

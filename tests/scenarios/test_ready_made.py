@@ -16,6 +16,7 @@ FOLDER = Path(__file__).parents[2] / "scenarios"
 # Robots, tasks, and an effort that is a few times what each takes.
 READY = {
     "mixed-64": (64, 64, 400_000),
+    "port": (3, 6, 400_000),
     "tight-room": (4, 4, 200_000),
     "warehouse-8x24": (8, 24, 100_000),
     "warehouse-16x48": (16, 48, 200_000),

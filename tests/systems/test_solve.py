@@ -101,9 +101,9 @@ def test_a_pose_that_cannot_be_is_refused_before_any_search():
 
 
 def test_what_no_part_can_take_is_refused_by_name():
-    """Acceleration limits are not planned for: the robot type and the mend are named."""
-    limits = Limits(speed=2.5, yaw_rate=0.57, turning_radius=3.0, acceleration=1.0)
-    heavy = replace(CARRIER, limits=limits)
+    """Ramps in any direction at once are not planned: the robot type and the mend are named."""
+    limits = Limits(speed=2.5, yaw_rate=0.57, acceleration=1.0)
+    heavy = replace(CARRIER, kinematics="holonomic", limits=limits)
     with pytest.raises(Unsupported, match=r"carrier: acceleration.*remove"):
         solve(hall(robot_types={"carrier": heavy}), budget=ENOUGH)
 

@@ -35,7 +35,10 @@ def native_table(model: MotionModel) -> _core.MotionTable:
 
 def _primitive(model: MotionModel, motion: Motion, number: dict[str, int]) -> _core.Primitive:
     native = _core.Primitive(
-        number[motion.mode], _core.Twist(*motion.twist), motion.turn_steps, to_ticks(motion.duration)
+        number[motion.mode],
+        _core.Twist(*motion.twist),
+        motion.turn_steps,
+        to_ticks(motion.duration),
     )
     if motion.enters:
         at_rest = any(model.mode(name).rest for name in motion.enters)

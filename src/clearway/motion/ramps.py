@@ -101,9 +101,7 @@ def _ramps(
             if steps * abs(motion.twist[2]) > LARGEST_TURN and steps > 1:
                 continue
             length = steps * motion.length
-            ramp = _core.ramp(
-                length, enter, leave, fastest, model.acceleration, model.deceleration
-            )
+            ramp = _core.ramp(length, enter, leave, fastest, model.acceleration, model.deceleration)
             pieces = tuple((way / length, to_seconds(ticks)) for way, ticks in ramp)
             twist = (motion.twist[0] * steps, motion.twist[1] * steps, motion.twist[2] * steps)
             yield Motion(

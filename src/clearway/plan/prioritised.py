@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from clearway import _core
-from clearway.model import LOAD_CHANGE, Plan, Problem, Status, to_seconds
+from clearway.model import LOAD_CHANGE, Limits, Plan, Problem, RobotState, Status, to_seconds
 from clearway.motion import can_ramp, models_for
 from clearway.plan.bounds import lower_bounds
 from clearway.plan.native_team import NativeTeam
@@ -11,6 +11,8 @@ from clearway.protocols import Budget, Progress
 
 Aim = _core.Aim
 TeamParams = _core.TeamParams
+# The last step (s) of a ramp to rest, at the most.
+LAST_STEP = 0.12
 
 
 class PrioritisedPlanner:
@@ -116,6 +118,11 @@ def unplannable(problem: Problem) -> tuple[str, ...]:
                 f"robot {robot.id}: a start in motion is not planned for where acceleration "
                 "is limited"
             )
+        if limits.has_ramps and _ends_at_speed(problem.state_of(robot), limits):
+            reasons.append(
+                f"robot {robot.id}: a committed motion that ends at speed is not planned on "
+                "from where acceleration is limited; commit it until it rests"
+            )
         for visit in problem.tours.get(robot.id, ()):
             if visit.together:
                 reasons.append(
@@ -132,6 +139,17 @@ def _with_bound(
     return lambda planned, total, expansions, cost: progress(
         planned, total, expansions, cost, bound
     )
+
+
+def _ends_at_speed(state: RobotState, limits: Limits) -> bool:
+    """Whether a robot is faster at the end of its prefix than at the end of a ramp to rest."""
+    prefix = state.committed
+    if prefix is None or not prefix.pieces or prefix.timing[-1][1] < state.tick:
+        return False
+    begin, end = prefix.timing[-1]
+    rates = (limits.acceleration, limits.deceleration)
+    slower = min(rate for rate in rates if rate is not None)
+    return prefix.pieces[-1].length / to_seconds(end - begin) > LAST_STEP * slower
 
 
 def tasks_in_order(problem: Problem, robot: str) -> tuple[str, ...]:
