@@ -35,7 +35,8 @@ def ramped(model: MotionModel, limits: Limits) -> MotionModel:
     up, down = limits.acceleration or math.inf, limits.deceleration or math.inf
     up, down = min(up, LARGEST_RATIO * down), min(down, LARGEST_RATIO * up)
     model = replace(model, acceleration=SHARE * up, deceleration=SHARE * down)
-    modes, motions = list(model.modes), []
+    modes: list[Mode] = list(model.modes)
+    motions: list[Motion] = []
     for course in _courses(model):
         levels = _levels(model, course)
         modes += [
