@@ -12,6 +12,7 @@ from clearway.plan import PrioritisedPlanner
 from clearway.protocols import Budget
 
 RATES = (0.3, 0.5, 1.16, 2.31, 5.0)
+TOUR = ((1.0, 6.0, EAST), to(11.0, 6.0))
 EFFORT = Budget(expansions=20_000)
 
 
@@ -82,12 +83,15 @@ def test_nobody_waits_at_speed():
     heavy = replace(CART, limits=limits)
     problem = team(
         room(12.0, 12.0),
-        (heavy, (1.0, 6.0, EAST), to(11.0, 6.0)),
+        (heavy, *TOUR),
         (heavy, (6.0, 1.0, 1.5707963), to(6.0, 11.0, 1.5707963)),
     )
     plan = PrioritisedPlanner()(problem, EFFORT, 0)
     assert plan.status is Status.SOLVED
     assert judged(problem, plan) == []
+    alone = PrioritisedPlanner()(team(problem.site, (heavy, *TOUR)), EFFORT, 0)
+    first, second = sorted(path.end for path in plan.trajectories.values())
+    assert first == alone.trajectories["a"].end < second
 
 
 def test_what_cannot_be_done_without_limits_cannot_be_done_with_them():

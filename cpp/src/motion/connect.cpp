@@ -143,14 +143,18 @@ void add_switches(const MotionTable& table, const Objective& objective, Shot& sh
 
 double MotionTable::reach() const {
   double most = 0.0;
-  for (const Primitive& p : primitives) most = std::max(most, p.twist.length());
+  for (const Primitive& p : primitives) {
+    if (p.steps.empty()) most = std::max(most, p.twist.length());
+    for (const Step& step : p.steps) most = std::max(most, step.twist.length());
+  }
   return most;
 }
 
 double MotionTable::shortest_step() const {
-  double least = reach();
+  double least = 0.0;
   for (const Primitive& p : primitives) {
-    if (p.twist.length() > 0.0) least = std::min(least, p.twist.length());
+    const double length = p.twist.length();
+    if (length > 0.0 && (least == 0.0 || length < least)) least = length;
   }
   return least;
 }
@@ -171,22 +175,24 @@ void connect(const MotionTable& table, const Objective& objective, const Pose& f
   count = std::min(count, kMost);
   std::vector<Step> steps;
   std::vector<double> speeds;
-  const auto offer = [&](Candidate c) {
-    if (c.cost >= 1e17) return;
-    if (num_best == count && c.cost >= best[num_best - 1].cost) return;
+  const auto offer = [&](const Candidate& c) {
+    double cost = c.cost;
+    if (cost >= 1e17) return;
+    if (num_best == count && cost >= best[num_best - 1].cost) return;
     if (table.is_limited()) {
       steps.clear();
       spell(c, steps);
       if (!speeds_between(table, mode, steps, speeds)) return;
-      if (objective.time) c.cost = seconds_between(table, steps, speeds) * kTicksPerSecond;
-      if (num_best == count && c.cost >= best[num_best - 1].cost) return;
+      if (objective.time) cost = seconds_between(table, steps, speeds) * kTicksPerSecond;
+      if (num_best == count && cost >= best[num_best - 1].cost) return;
     }
     std::size_t at = num_best < count ? num_best++ : num_best - 1;
-    while (at > 0 && best[at - 1].cost > c.cost) {
+    while (at > 0 && best[at - 1].cost > cost) {
       best[at] = best[at - 1];
       --at;
     }
     best[at] = c;
+    best[at].cost = cost;
   };
   const Frame start(from);
   const Point local = start.to_local({to.x, to.y});

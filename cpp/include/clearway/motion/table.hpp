@@ -100,7 +100,7 @@ struct MotionTable {
 
   double shortest_step() const;  // of the primitives that travel (m)
 
-  // Longest straight distance between the ends of a primitive or any point on it (m).
+  // Longest straight distance between the ends of a step of a primitive or any point on it (m).
   double reach() const;
 };
 
