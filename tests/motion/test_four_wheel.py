@@ -177,10 +177,12 @@ def one_mode(motion):
         (Motion("fly", (1.0, 0.0, 0.0), 0, 1.0), "'fly'"),
         (Motion("go", (1.0, 0.0, 0.3), 1, 1.0), "0.785398"),
         (Motion("go", (1.0, 0.0, 0.0), 0, 0.0), "duration above 0"),
+        (Motion("go", (1.0, 0.0, 0.0), 0, 1.0, ("fly",)), "begins in mode 'fly'"),
+        (Motion("go", (1.0, 0.0, 0.0), 0, 1.0, (), ((0.5, 0.5),)), "0.500000 of it in 0.5"),
     ],
 )
 def test_a_table_that_contradicts_itself_is_refused(motion, said):
-    """A mode that is not there, a turn between headings, a motion that takes no time."""
+    """A mode that is not there, a turn between headings, no time, pieces that are not the whole."""
     with pytest.raises(ValueError, match=said):
         one_mode(motion)
 

@@ -72,7 +72,8 @@ bool speeds_between(const MotionTable& table, int mode, const std::vector<Step>&
   speeds.assign(n + 1, 0.0);
   const auto course = [&](int of) { return table.paces[static_cast<std::size_t>(of)].course; };
   const double enter = table.speed(mode);
-  if (enter > 0.0 && (n == 0 || course(steps[0].mode) != course(mode) || enter > steps[0].top)) {
+  if (enter > 0.0 &&
+      (n == 0 || course(steps[0].mode) != course(mode) || enter > steps[0].top * (1.0 + kLoss))) {
     return false;
   }
   speeds[0] = enter;

@@ -19,6 +19,7 @@ SHARE = 0.95
 LARGEST_RATIO = 2.0
 SLOW = 1.0 / 3.0  # the slowest speed level, of the top speed
 LIKE = 0.05  # levels that differ by this share are one
+NO_MORE = 1.0 + 1e-9  # what rounding may add to a speed
 LARGEST_TURN = math.pi / 2.0  # of a ramp on an arc
 
 
@@ -43,7 +44,7 @@ def ramped(model: MotionModel, limits: Limits) -> MotionModel:
             Mode(f"{mode.name}@{level:.3g}", mode.direction, mode.turn, level, False, of=mode.name)
             for mode in course
             for level in levels
-            if level <= mode.speed
+            if level <= mode.speed * NO_MORE
         ]
         names = {mode.name for mode in course}
         for motion in model.motions:
@@ -82,7 +83,7 @@ def _levels(model: MotionModel, course: list[Mode]) -> list[float]:
     for top in tops:
         if top * (1.0 - LIKE) > levels[-1]:
             levels.append(top)
-    return [step / to_seconds(to_ticks(step / level)) for level in levels]
+    return [min(level, step / to_seconds(to_ticks(step / level))) for level in levels]
 
 
 def _ramps(
@@ -91,14 +92,14 @@ def _ramps(
     """Yield a motion from each speed to each, as many steps long as it takes."""
     (mode,) = (mode for mode in modes if mode.name == motion.mode)
     top = motion.length / motion.duration
-    speeds = [0.0, *(level for level in levels if level <= top)]
+    speeds = [0.0, *(level for level in levels if level <= top * NO_MORE)]
     for enter in speeds:
         enters = tuple(other.name for other in modes if _may_follow(model, mode, other, enter))
         for leave in speeds:
             fastest = max(enter, leave) or top
             change = abs(enter**2 - leave**2) / 2.0
             rate = model.acceleration if leave > enter else model.deceleration
-            steps = max(1, math.ceil(change / rate / motion.length - 1e-9))
+            steps = max(1, math.ceil(change / rate / motion.length - 1e-12))
             if steps * abs(motion.twist[2]) > LARGEST_TURN and steps > 1:
                 continue
             length = steps * motion.length
