@@ -118,6 +118,12 @@ class ConflictBasedSearch:
     def unsupported(self, problem: Problem) -> tuple[str, ...]:
         """Return what in the problem this planner cannot take."""
         reasons = list(unplannable(problem))
+        for name in sorted({robot.type for robot in problem.robots}):
+            if problem.robot_types[name].limits.has_ramps:
+                reasons.append(
+                    f"robot type {name}: conflict-based search knows no limits on acceleration; "
+                    "remove them or plan by priorities"
+                )
         for robot in problem.robots:
             state = problem.state_of(robot)
             if robot.start_speed or state.committed or state.tick or robot.id in problem.fixed:
