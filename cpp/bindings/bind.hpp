@@ -5,6 +5,7 @@
 
 namespace clearway::bindings {
 
+void bind_assign(nanobind::module_& m);
 void bind_body(nanobind::module_& m);
 void bind_statics(nanobind::module_& m);
 void bind_motion(nanobind::module_& m);

@@ -1,11 +1,12 @@
 #include "bind.hpp"
 
 NB_MODULE(_core, m) {
-  m.doc() = "Native search core: geometry, motion tables, space, search, multi-robot search.";
+  m.doc() = "Native search core: geometry, motion tables, space, search, multi-robot search, assignment.";
   clearway::bindings::bind_body(m);
   clearway::bindings::bind_statics(m);
   clearway::bindings::bind_motion(m);
   clearway::bindings::bind_prioritised(m);
   clearway::bindings::bind_conflict_search(m);
   clearway::bindings::bind_lone_legs(m);
+  clearway::bindings::bind_assign(m);
 }

@@ -1,0 +1,87 @@
+// Ruin and recreate: some tasks are taken out and put back where they cost least, again and again.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "clearway/assign/costs.hpp"
+#include "clearway/assign/random.hpp"
+#include "clearway/assign/route_set.hpp"
+#include "clearway/assign/schedule.hpp"
+#include "clearway/budget.hpp"
+
+namespace clearway::assign {
+
+struct RuinRecreateParams {
+  int removed = 10;                // tasks taken out at once, on average
+  int longest_string = 10;         // tasks taken out of one route in a row, at most
+  double blinks = 0.1;             // share of the places overlooked
+  double regret = 0.1;             // share of recreations by regret
+  double first_temperature = 0.5;  // in mean prices of a leg; more accepts worse routes
+  double last_temperature = 0.01;
+};
+
+struct RuinRecreateResult {
+  Routes routes;
+  double value = 0.0;
+};
+
+// Sources: G. Schrimpf et al., J. Comput. Phys. 159 (2000); strings and blinks: J. Christiaens,
+// G. Vanden Berghe, "Slack induction by string removals", Transportation Science 54 (2020).
+// The longest route counts in the price of every place, and ruins often begin at it.
+class RuinRecreate {
+ public:
+  // `seats`: most tasks that a robot may have.
+  RuinRecreate(const Costs& costs, int seats, const RuinRecreateParams& params);
+
+  // Goes on from legal routes for as many rounds as given. The budget is only asked to stop.
+  RuinRecreateResult operator()(const Routes& start, std::int64_t rounds, std::uint64_t seed,
+                                Budget& budget);
+
+ private:
+  struct Place {
+    double value;  // by how much the objective grows
+    Leg added;
+    int robot, position;
+  };
+
+  void rank_neighbours();
+  int pick_seed();
+  void ruin();
+  void ruin_strings();
+  void ruin_near();
+  void ruin_anywhere();
+  void take_out(int robot, int position, int number);
+  void touch(int robot);
+  bool recreate();
+  bool recreate_by_regret();
+  void sort_removed();
+  void look(int task, int robot, double longest, Place& best);
+  void look_timed(int task, int robot, double longest, Place& best);
+  void put(int task, const Place& place);
+  bool blink();
+  double worth();
+  double tardiness();
+  const int* near(int task) const {
+    return &near_[static_cast<std::size_t>(task) * static_cast<std::size_t>(costs_.tasks())];
+  }
+
+  const Costs& costs_;
+  int seats_;
+  RuinRecreateParams params_;
+  Random random_{0};
+  Schedule schedule_;
+  RouteSet here_, kept_;           // the routes worked on, and as they were before the round
+  std::vector<int> near_;          // all tasks by nearness to each
+  std::vector<int> removed_;
+  std::vector<int> touched_;       // robots whose routes changed in this round
+  std::vector<std::uint8_t> is_touched_;
+  std::vector<Place> places_;      // best per removed task and robot
+  std::vector<double> far_;
+  std::vector<int> trial_;         // a route with one more task
+  std::vector<std::uint8_t> gaps_;  // places until the next blink
+  int until_blink_ = 0;
+  double late_ = 0.0;  // of here_
+};
+
+}  // namespace clearway::assign
