@@ -11,6 +11,7 @@
 
 #include "bind.hpp"
 #include "clearway/assign/costs.hpp"
+#include "clearway/assign/exact.hpp"
 #include "clearway/assign/ruin_recreate.hpp"
 
 namespace nb = nanobind;
@@ -128,6 +129,19 @@ void bind_assign(nb::module_& m) {
       },
       "costs"_a, "start"_a, "seats"_a, "params"_a, "rounds"_a, "seed"_a,
       "Better routes than those to start from, with at most so many seats per robot.");
+  nb::class_<ExactResult>(m, "ExactResult", "What exact assignment came to.")
+      .def_ro("routes", &ExactResult::routes)
+      .def_ro("proven", &ExactResult::proven)
+      .def_ro("pooled", &ExactResult::pooled)
+      .def_ro("branchings", &ExactResult::branchings);
+  m.def(
+      "solve_exactly",
+      [](const Costs& costs, int seats, const Routes& start) {
+        return interruptible(
+            [&](Budget& budget) { return solve_exactly(costs, seats, start, budget); });
+      },
+      "costs"_a, "seats"_a, "start"_a,
+      "The best routes of an untimed problem of at most 16 tasks, and proof that they are.");
 }
 
 }  // namespace clearway::bindings
