@@ -1,7 +1,8 @@
 #include "bind.hpp"
 
 NB_MODULE(_core, m) {
-  m.doc() = "Native search core: geometry, motion tables, space, search, multi-robot search, assignment.";
+  m.doc() =
+      "Native search core: geometry, motion tables, space, search, multi-robot search, assignment.";
   clearway::bindings::bind_body(m);
   clearway::bindings::bind_statics(m);
   clearway::bindings::bind_motion(m);

@@ -1,9 +1,13 @@
 """
-Native search core: geometry, motion tables, space, search, multi-robot search.
+Native search core: geometry, motion tables, space, search, multi-robot search, assignment.
 """
 
 from collections.abc import Callable, Sequence
 import enum
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
 
 
 class Pose:
@@ -101,20 +105,6 @@ class Family(enum.Enum):
 
     TRANSLATE = 3
 
-class Step:
-    """One part of a connection or of a primitive."""
-
-    def __init__(self, mode: int, twist: Twist, duration: int) -> None: ...
-
-    @property
-    def mode(self) -> int: ...
-
-    @property
-    def twist(self) -> Twist: ...
-
-    @property
-    def duration(self) -> int: ...
-
 class Primitive:
     """One short motion of a table."""
 
@@ -134,31 +124,10 @@ class Primitive:
 
     @property
     def allowed_from(self) -> int:
-        """Modes in which it may begin, as bits; the last of 64: in none."""
+        """Modes in which it may begin, as bits."""
 
     @allowed_from.setter
     def allowed_from(self, arg: int, /) -> None: ...
-
-    @property
-    def steps(self) -> list[Step]:
-        """How it is driven; empty: evenly."""
-
-    @steps.setter
-    def steps(self, arg: Sequence[Step], /) -> None: ...
-
-class Pace:
-    """A mode at a speed."""
-
-    def __init__(self, moving: int, course: int, speed: float) -> None: ...
-
-    @property
-    def moving(self) -> int: ...
-
-    @property
-    def course(self) -> int: ...
-
-    @property
-    def speed(self) -> float: ...
 
 class Connection:
     """How one family of analytic curves is driven."""
@@ -308,6 +277,18 @@ class Objective:
     @waiting.setter
     def waiting(self, arg: float, /) -> None: ...
 
+class Step:
+    """One part of a connection."""
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def duration(self) -> int: ...
+
 class MotionTable:
     """A robot's motions as a table."""
 
@@ -355,31 +336,7 @@ class MotionTable:
     @switch_duration.setter
     def switch_duration(self, arg: int, /) -> None: ...
 
-    @property
-    def paces(self) -> list[Pace]:
-        """What each mode is, where acceleration is limited."""
-
-    @paces.setter
-    def paces(self, arg: Sequence[Pace], /) -> None: ...
-
-    @property
-    def acceleration(self) -> float: ...
-
-    @acceleration.setter
-    def acceleration(self, arg: float, /) -> None: ...
-
-    @property
-    def deceleration(self) -> float: ...
-
-    @deceleration.setter
-    def deceleration(self, arg: float, /) -> None: ...
-
-def ramp(length: float, enter: float, leave: float, top: float, acceleration: float, deceleration: float) -> list[tuple[float, int]]:
-    """
-    Steps of even speed (m, ticks) from one speed to another; none where it is too short.
-    """
-
-def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose, mode: int = -1) -> list[Step]:
+def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose) -> list[Step]:
     """Steps of the best obstacle-free connection between two poses."""
 
 class TimedPiece:
@@ -408,7 +365,7 @@ class TimedPiece:
 class Leg:
     """Drive to a goal, then stand there."""
 
-    def __init__(self, goal: Pose, service: int, body: int, not_before: int = 0) -> None: ...
+    def __init__(self, goal: Pose, service: int, body: int) -> None: ...
 
 class Model:
     """What all robots of one type share."""
@@ -724,192 +681,137 @@ def trace_tour(models: Sequence[Model], agents: Sequence[Agent], params: TeamPar
     Search one robot's tour among others' and tell the states expanded, in order.
     """
 
-def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None, improve: bool = True) -> TeamAnswer:
+def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None) -> TeamAnswer:
     """
     Plan a team, then plan it better until the budget or an interrupt ends that.
     """
 
-class Heuristic(enum.Enum):
-    """How a search over a lattice estimates what is left."""
+class AssignmentCosts:
+    """What it costs robots to go from task to task."""
 
-    LOOK_BACK = 0
-
-    BOUND = 1
-
-    PAPER = 2
-
-class ConflictMode(enum.Enum):
-    """What conflict-based search aims at."""
-
-    OPTIMAL = 0
-
-    BOUNDED = 1
-
-    GREEDY = 2
-
-class LatticeParams:
-    """What makes a robot's finite graph."""
-
-    def __init__(self) -> None: ...
+    def __init__(self, kind: Sequence[int], start: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], start_turn: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], between: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], turn: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], inner: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], allowed: Annotated[NDArray[numpy.uint8], dict(order='C', device='cpu', writable=False)], weights: Sequence[float], speed: float, service: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], due: Annotated[NDArray[numpy.float64], dict(order='C', device='cpu', writable=False)], before: Sequence[tuple[int, int]]) -> None: ...
 
     @property
-    def slot(self) -> int: ...
-
-    @slot.setter
-    def slot(self, arg: int, /) -> None: ...
+    def num_robots(self) -> int: ...
 
     @property
-    def shot_words(self) -> int: ...
-
-    @shot_words.setter
-    def shot_words(self, arg: int, /) -> None: ...
+    def num_tasks(self) -> int: ...
 
     @property
-    def shot_reach(self) -> float: ...
+    def is_timed(self) -> bool: ...
 
-    @shot_reach.setter
-    def shot_reach(self, arg: float, /) -> None: ...
+    def values(self, orders: Annotated[NDArray[numpy.int32], dict(order='C', device='cpu', writable=False)], cuts: Annotated[NDArray[numpy.int32], dict(order='C', device='cpu', writable=False)]) -> list[float]:
+        """
+        Values of orders of tasks, cut into one route per robot; infinite where not legal.
+        """
 
-    @property
-    def most_nodes(self) -> int: ...
+class RuinRecreateParams:
+    """Effort and shape of ruin and recreate."""
 
-    @most_nodes.setter
-    def most_nodes(self, arg: int, /) -> None: ...
-
-class ConflictParams:
-    """Choices of conflict-based search."""
-
-    def __init__(self) -> None: ...
+    def __init__(self, rounds: int | None = None, removed: int = 10, longest_string: int = 10, blinks: float = 0.1, regret: float = 0.1, first_temperature: float = 1.0, last_temperature: float = 0.01) -> None: ...
 
     @property
-    def mode(self) -> ConflictMode: ...
-
-    @mode.setter
-    def mode(self, arg: ConflictMode, /) -> None: ...
-
-    @property
-    def objective(self) -> Objective: ...
-
-    @objective.setter
-    def objective(self, arg: Objective, /) -> None: ...
+    def rounds(self) -> int | None:
+        """
+        Times that tasks are taken out and put back; more find better routes. None: by the number of tasks, for about 2 s of a core at the most.
+        """
 
     @property
-    def lattice(self) -> LatticeParams: ...
-
-    @lattice.setter
-    def lattice(self, arg: LatticeParams, /) -> None: ...
+    def removed(self) -> int:
+        """Tasks taken out in a round, on average."""
 
     @property
-    def heuristic(self) -> Heuristic: ...
-
-    @heuristic.setter
-    def heuristic(self, arg: Heuristic, /) -> None: ...
+    def longest_string(self) -> int:
+        """Tasks out of one route in a row, at most."""
 
     @property
-    def factor(self) -> float: ...
-
-    @factor.setter
-    def factor(self, arg: float, /) -> None: ...
+    def blinks(self) -> float:
+        """Share of the places overlooked; more is more varied."""
 
     @property
-    def xi(self) -> float: ...
-
-    @xi.setter
-    def xi(self, arg: float, /) -> None: ...
-
-    @property
-    def adaptive(self) -> bool: ...
-
-    @adaptive.setter
-    def adaptive(self, arg: bool, /) -> None: ...
+    def regret(self) -> float:
+        """
+        Share of the rounds that put back first what would lose most by its second-best robot.
+        """
 
     @property
-    def meeting(self) -> float: ...
-
-    @meeting.setter
-    def meeting(self, arg: float, /) -> None: ...
+    def first_temperature(self) -> float:
+        """By how much a round may end worse at first, in mean prices of a leg."""
 
     @property
-    def attempts(self) -> int: ...
+    def last_temperature(self) -> float:
+        """The same at the end."""
 
-    @attempts.setter
-    def attempts(self, arg: int, /) -> None: ...
+def ruin_recreate(costs: AssignmentCosts, start: Sequence[Sequence[int]], seats: int, params: RuinRecreateParams, seed: int) -> list[list[int]]:
+    """
+    Better routes than those to start from, with at most so many seats per robot.
+    """
 
-    @property
-    def first_limit(self) -> int: ...
-
-    @first_limit.setter
-    def first_limit(self, arg: int, /) -> None: ...
-
-    @property
-    def most_nodes(self) -> int: ...
-
-    @most_nodes.setter
-    def most_nodes(self, arg: int, /) -> None: ...
+class ExactResult:
+    """What exact assignment came to."""
 
     @property
-    def margin(self) -> float: ...
-
-    @margin.setter
-    def margin(self, arg: float, /) -> None: ...
-
-class ConflictStatus(enum.Enum):
-    """How conflict-based search ended."""
-
-    SOLVED = 0
-
-    STOPPED = 1
-
-    NONE = 2
-
-class ConflictAnswer:
-    """What conflict-based search came to."""
-
-    @property
-    def status(self) -> ConflictStatus: ...
-
-    @property
-    def tours(self) -> list[TourResult]: ...
-
-    @property
-    def concerned(self) -> list[int]: ...
-
-    @property
-    def cost(self) -> float: ...
+    def routes(self) -> list[list[int]]: ...
 
     @property
     def proven(self) -> bool: ...
 
     @property
-    def largest_group(self) -> int: ...
+    def pooled(self) -> int: ...
 
     @property
-    def bound(self) -> float: ...
+    def branchings(self) -> int: ...
 
-    @property
-    def expansions(self) -> int: ...
-
-    @property
-    def nodes(self) -> int: ...
-
-    @property
-    def searches(self) -> int: ...
-
-    @property
-    def too_large(self) -> bool: ...
-
-    @property
-    def interrupted(self) -> bool: ...
-
-def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
-    """Plan a team by conflict-based search on bodies."""
-
-class LoneLeg:
-    """From one pose to another, with a body."""
-
-    def __init__(self, start: Pose, goal: Pose, body: int) -> None: ...
-
-def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) -> list[int]:
+def solve_exactly(costs: AssignmentCosts, seats: int, start: Sequence[Sequence[int]]) -> ExactResult:
     """
-    Ticks that each leg takes with nobody else on the site; -1 where no way is found.
+    The best routes of an untimed problem of at most 16 tasks, and proof that they are.
     """
+
+class MemeticParams:
+    """Effort and shape of the memetic swarm."""
+
+    def __init__(self, particles: int = 30, iterations: int = 5, mutation: float = 0.1, c_max: float = 2.5, c_min: float = 0.5, w_max: float = 1.0, w_min: float = 0.0, gamma: float = 0.2) -> None: ...
+
+    @property
+    def particles(self) -> int:
+        """More find better routes."""
+
+    @property
+    def iterations(self) -> int:
+        """Times that all are mixed and descend."""
+
+    @property
+    def mutation(self) -> float:
+        """Chance that two coordinates of a child change places."""
+
+    @property
+    def c_max(self) -> float:
+        """Pull of a particle's own best at first and of the best of all at last."""
+
+    @property
+    def c_min(self) -> float:
+        """The same the other way round."""
+
+    @property
+    def w_max(self) -> float:
+        """Pull towards staying as it is, at first."""
+
+    @property
+    def w_min(self) -> float:
+        """The same at last."""
+
+    @property
+    def gamma(self) -> float:
+        """Adds to that, times the ratio of the best value to the mean one."""
+
+class MemeticResult:
+    """What a memetic swarm came to."""
+
+    @property
+    def routes(self) -> list[list[int]]: ...
+
+    @property
+    def evaluations(self) -> int: ...
+
+def swarm_memetically(costs: AssignmentCosts, seats: int, start: Sequence[Sequence[int]], params: MemeticParams, seed: int) -> MemeticResult:
+    """The best even split that a swarm finds."""

@@ -12,8 +12,11 @@ from clearway.protocols import AssignmentProblem, Weights
 ORACLES = Path(__file__).parents[1] / "data" / "oracles" / "assignment.json"
 
 
-def random_problem(seed, m=3, n=5, refused=0.0, weights=None):
-    """Robots that each drive in their own way, there otherwise than back."""
+def random_problem(seed, m=3, n=5, refused=0.0, weights=None, timed=None):
+    """Robots that each drive in their own way, there otherwise than back.
+
+    Where ``timed``, some tasks are due too soon, and as many pairs as it says must wait.
+    """
     rng = np.random.default_rng(seed)
     allowed = rng.random((m, n)) >= refused
     allowed[rng.integers(m, size=n), np.arange(n)] = True
@@ -27,7 +30,21 @@ def random_problem(seed, m=3, n=5, refused=0.0, weights=None):
         inner=rng.uniform(0.0, 20.0, (m, n)),
         allowed=allowed,
         weights=weights or Weights(*rng.uniform(0.0, 2.0, 3)),
+        **({} if timed is None else times(seed, n, timed)),
     )
+
+
+def times(seed, n, pairs):
+    """Speed, service, due times and order of a random timed problem."""
+    rng = np.random.default_rng((seed, n))
+    rank = rng.permutation(n)
+    drawn = (rng.choice(n, 2, replace=False) for _ in range(pairs))
+    return {
+        "speed": float(rng.uniform(0.5, 2.0)),
+        "service": rng.uniform(0.0, 10.0, n),
+        "due": np.where(rng.random(n) < 0.7, rng.uniform(20.0, 120.0, n), np.inf),
+        "before": tuple(tuple(int(i) for i in sorted(pair, key=rank.item)) for pair in drawn),
+    }
 
 
 def proven_instances():

@@ -19,6 +19,13 @@ from clearway.assign import (
     PsoParams,
     RandomAssigner,
     SwarmParams,
+    ExactAssigner,
+    InsertionLocalSearch,
+    InsertionParams,
+    MemeticApsga,
+    RandomAssigner,
+    RuinRecreate,
+    RuinRecreateParams,
 )
 from clearway.protocols import AssignmentProblem, check_routes, objective
 
@@ -33,6 +40,11 @@ ASSIGNERS = {
     "psga": Psga(PsgaParams(SWARM)),
     "apsga": Apsga(ApsgaParams(SWARM)),
     "apsga, literal": Apsga(ApsgaParams(SWARM, LITERAL)),
+    "exact, even": ExactAssigner(even=True),
+    "exact, free": ExactAssigner(even=False),
+    "memetic": MemeticApsga(),
+    "ruin and recreate, even": RuinRecreate(even=True, params=RuinRecreateParams(rounds=200)),
+    "ruin and recreate, free": RuinRecreate(even=False, params=RuinRecreateParams(rounds=200)),
 }
 
 

@@ -2,7 +2,7 @@
 
 from itertools import combinations_with_replacement, pairwise, permutations
 
-from clearway.protocols import AssignmentProblem, objective
+from clearway.protocols import AssignmentProblem, find_circle, objective
 
 
 def optimum(problem: AssignmentProblem, even: bool = False) -> float:
@@ -17,5 +17,12 @@ def optimum(problem: AssignmentProblem, even: bool = False) -> float:
                 len(route) <= seats and all(problem.allowed[k, task] for task in route)
                 for k, route in enumerate(routes)
             ):
-                best = min(best, objective(problem, routes).value)
+                best = min(best, _value(problem, routes))
     return best
+
+
+def _value(problem: AssignmentProblem, routes: list[tuple[int, ...]]) -> float:
+    """Return the objective; infinite where routes wait for each other."""
+    if find_circle((*problem.before, *(pair for route in routes for pair in pairwise(route)))):
+        return float("inf")
+    return objective(problem, routes).value

@@ -64,16 +64,16 @@ Costs::Costs(const Tables& tables)
     return known;
   };
   for (std::size_t i = 0; i < m * n; ++i) {
-    start_[i] = leg(allowed_[i] ? tables.start[i] + inner_[i]
-                                : std::numeric_limits<double>::infinity(),
-                    tables.start_turn[i]);
+    start_[i] =
+        leg(allowed_[i] ? tables.start[i] + inner_[i] : std::numeric_limits<double>::infinity(),
+            tables.start_turn[i]);
   }
   for (std::size_t kind = 0; kind < kinds; ++kind) {
     for (std::size_t from = 0; one[kind] < m && from < n; ++from) {
       for (std::size_t to = 0; to < n; ++to) {
         const double inner = inner_[one[kind] * n + to];
-        const Leg known = leg(tables.between[(kind * n + from) * n + to] + inner,
-                              tables.turn[from * n + to]);
+        const Leg known =
+            leg(tables.between[(kind * n + from) * n + to] + inner, tables.turn[from * n + to]);
         out_of_[(kind * n + from) * (n + 1) + to] = known;
         into_[(kind * n + to) * (n + 1) + from] = known;
       }
@@ -97,7 +97,8 @@ void Costs::close(const std::vector<std::pair<int, int>>& before) {
   if (before.empty()) return;
   has_order_ = timed_ = true;
   std::vector<std::vector<int>> next(n);
-  for (const auto& [first, second] : before) next[static_cast<std::size_t>(first)].push_back(second);
+  for (const auto& [first, second] : before)
+    next[static_cast<std::size_t>(first)].push_back(second);
   std::vector<std::uint8_t> seen(n);
   for (std::size_t task = 0; task < n; ++task) {
     std::fill(seen.begin(), seen.end(), std::uint8_t{0});
@@ -163,7 +164,8 @@ std::vector<double> values(const Costs& costs, std::span<const int> orders,
                                     "] must name each task once, but not " + std::to_string(task));
       }
     }
-    if (cut.front() != 0 || cut.back() != costs.tasks() || !std::is_sorted(cut.begin(), cut.end())) {
+    if (cut.front() != 0 || cut.back() != costs.tasks() ||
+        !std::is_sorted(cut.begin(), cut.end())) {
       throw std::invalid_argument("cuts[" + std::to_string(i) + "] must rise from 0 to " +
                                   std::to_string(n));
     }

@@ -15,7 +15,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 constexpr double kGain = 1e-9;  // a gain below this is rounding
 constexpr int kSteps = 40;      // on task prices, per interval
 
-using Columns = std::vector<PooledRoute>;  // grouped by robot
+using Columns = std::vector<PooledRoute>;  // by robot, then by set
 
 struct Prices {
   std::vector<double> of_task;
@@ -43,8 +43,8 @@ class SetSums {
 
 class Cover {
  public:
-  Cover(const Costs& costs, double best, double least_far, Budget& budget)
-      : costs_(costs), best_(best), least_far_(least_far), budget_(budget) {}
+  Cover(const Costs& costs, double best, Budget& budget)
+      : costs_(costs), best_(best), budget_(budget) {}
 
   // Look for something better whose longest route is worth `low` up to `high`.
   void search(Columns columns, double low, double high, std::vector<double> task_prices);
@@ -57,13 +57,16 @@ class Cover {
   Prices raise(const Columns& columns, double low, std::vector<double> task_prices) const;
   void combine(const Columns& columns, double low, const Prices& prices);
   void branch(TaskSet left, double bound, double price, double far);
+  void finish(TaskSet left, double price, double far);
+  void keep(double price);
 
   const Costs& costs_;
-  double best_, least_far_;
+  double best_;
   Budget& budget_;
   Columns chosen_;
   std::int64_t branchings_ = 0;
   // While putting together:
+  const Columns* columns_ = nullptr;
   struct Choice {
     PooledRoute route;
     double beyond;  // its price beyond those of its tasks and its robot
@@ -106,7 +109,8 @@ Prices Cover::raise(const Columns& columns, double low, std::vector<double> task
     double norm = 0.0;
     std::vector<int> excess(task_prices.size(), 1);
     for (const TaskSet tasks : held) {
-      for (TaskSet s = tasks; s; s &= s - 1) --excess[static_cast<std::size_t>(std::countr_zero(s))];
+      for (TaskSet s = tasks; s; s &= s - 1)
+        --excess[static_cast<std::size_t>(std::countr_zero(s))];
     }
     for (const int e : excess) norm += e * e;
     if (norm == 0.0) return best;
@@ -122,8 +126,8 @@ void Cover::search(Columns columns, double low, double high, std::vector<double>
   const Prices prices = raise(columns, low, std::move(task_prices));
   const SetSums sums(prices.of_task);
   std::erase_if(columns, [&](const PooledRoute& route) {
-    const double beyond = route.price - sums(route.tasks) -
-                          prices.of_robot[static_cast<std::size_t>(route.robot)];
+    const double beyond =
+        route.price - sums(route.tasks) - prices.of_robot[static_cast<std::size_t>(route.robot)];
     return prices.bound + beyond + std::max(low, route.far) >= best_ - kGain;
   });
   if (columns.empty() || budget_.ended) return;
@@ -155,11 +159,12 @@ void Cover::search(Columns columns, double low, double high, std::vector<double>
 void Cover::combine(const Columns& columns, double low, const Prices& prices) {
   const auto n = static_cast<std::size_t>(costs_.tasks());
   const SetSums sums(prices.of_task);
+  columns_ = &columns;
   with_task_.assign(n, {});
   used_.assign(static_cast<std::size_t>(costs_.robots()), 0);
   for (const PooledRoute& route : columns) {
-    const double beyond = route.price - sums(route.tasks) -
-                          prices.of_robot[static_cast<std::size_t>(route.robot)];
+    const double beyond =
+        route.price - sums(route.tasks) - prices.of_robot[static_cast<std::size_t>(route.robot)];
     for (TaskSet s = route.tasks; s; s &= s - 1) {
       with_task_[static_cast<std::size_t>(std::countr_zero(s))].push_back({route, beyond});
     }
@@ -178,15 +183,40 @@ void Cover::combine(const Columns& columns, double low, const Prices& prices) {
   branch(static_cast<TaskSet>((std::uint64_t{1} << n) - 1), prices.bound, 0.0, low);
 }
 
+void Cover::keep(double price) {
+  double longest = 0.0;
+  for (const PooledRoute& route : stack_) longest = std::max(longest, route.far);
+  if (price + longest >= best_ - kGain) return;
+  best_ = price + longest;
+  chosen_ = stack_;
+}
+
+// The last robot has to do all that is left.
+void Cover::finish(TaskSet left, double price, double far) {
+  const auto robot =
+      static_cast<int>(std::find(used_.begin(), used_.end(), std::uint8_t{0}) - used_.begin());
+  const auto before = [](const PooledRoute& a, const PooledRoute& b) {
+    return a.robot != b.robot ? a.robot < b.robot : a.tasks < b.tasks;
+  };
+  const auto [first, last] = std::equal_range(columns_->begin(), columns_->end(),
+                                              PooledRoute{left, robot, 0.0, 0.0}, before);
+  for (auto route = first; route != last; ++route) {
+    if (price + route->price + std::max(far, route->far) >= best_ - kGain) continue;
+    ++branchings_;
+    stack_.push_back(*route);
+    keep(price + route->price);
+    stack_.pop_back();
+  }
+}
+
 // `bound` is on the sum of prices of all solutions with the routes on the stack.
 void Cover::branch(TaskSet left, double bound, double price, double far) {
   if (!left) {
-    double longest = least_far_;
-    for (const PooledRoute& route : stack_) longest = std::max(longest, route.far);
-    if (price + longest < best_ - kGain) {
-      best_ = price + longest;
-      chosen_ = stack_;
-    }
+    keep(price);
+    return;
+  }
+  if (stack_.size() + 1 == used_.size()) {
+    finish(left, price, far);
     return;
   }
   int task = 0;
@@ -223,7 +253,7 @@ ExactResult solve_exactly(const Costs& costs, int seats, const Routes& start, Bu
   const double known = std::min(costs.value(start), costs.forbidden());
   const RoutePool pool(costs, seats, known - kGain);
   result.pooled = static_cast<std::int64_t>(pool.routes().size());
-  Cover cover(costs, known, 0.0, budget);
+  Cover cover(costs, known, budget);
   std::vector<double> prices(static_cast<std::size_t>(costs.tasks()),
                              known / (1.0 + costs.tasks()));
   double high = 0.0;

@@ -40,6 +40,8 @@ RoutePool::RoutePool(const Costs& costs, int seats, double bound)
     label(kind);
     close_routes(kind);
   }
+  std::stable_sort(routes_.begin(), routes_.end(),
+                   [](const PooledRoute& a, const PooledRoute& b) { return a.robot < b.robot; });
 }
 
 void RoutePool::bound_legs() {
@@ -50,9 +52,10 @@ void RoutePool::bound_legs() {
     if (leg.price >= costs_.forbidden()) return false;
     auto& cheapest = cheapest_[static_cast<std::size_t>(task)];
     auto& reach = reach_[static_cast<std::size_t>(task)];
-    cheapest = std::min(cheapest, leg.price);
-    const bool nearer = before + far(leg) < reach;
-    if (nearer) reach = before + far(leg);
+    const Label added = weighted(leg);
+    cheapest = std::min(cheapest, added.price);
+    const bool nearer = before + added.far < reach;
+    if (nearer) reach = before + added.far;
     return nearer;
   };
   for (int k = 0; k < costs_.robots(); ++k) {
@@ -64,7 +67,8 @@ void RoutePool::bound_legs() {
       for (int from = 0; from < n; ++from) {
         for (int to = 0; to < n; ++to) {
           if (to == from) continue;
-          nearer |= learn(to, costs_.out_of(kind, from)[to], reach_[static_cast<std::size_t>(from)]);
+          nearer |=
+              learn(to, costs_.out_of(kind, from)[to], reach_[static_cast<std::size_t>(from)]);
         }
       }
     }
@@ -110,8 +114,9 @@ void RoutePool::label(int kind) {
       for (TaskSet seconds = others; seconds; seconds &= seconds - 1, ++at) {
         const Leg& leg = legs[std::countr_zero(seconds)];
         if (leg.price >= costs_.forbidden()) continue;
+        const Label added = weighted(leg);
         for (std::uint32_t i = offsets_[at]; i < offsets_[at + 1]; ++i) {
-          const Label label{labels_[i].far + far(leg), labels_[i].price + leg.price};
+          const Label label{labels_[i].far + added.far, labels_[i].price + added.price};
           if (!hopeless(tasks, first, label)) add(labels_, begin, label);
         }
       }
@@ -137,9 +142,10 @@ void RoutePool::close_routes(int kind) {
       for (TaskSet firsts = tasks; firsts; firsts &= firsts - 1, ++at) {
         const Leg& start = costs_.start(robot, std::countr_zero(firsts));
         if (start.price >= costs_.forbidden()) continue;
+        const Label added = weighted(start);
         for (std::uint32_t i = offsets_[at]; i < offsets_[at + 1]; ++i) {
-          const PooledRoute route{tasks, robot, labels_[i].far + far(start),
-                                  labels_[i].price + start.price};
+          const PooledRoute route{tasks, robot, labels_[i].far + added.far,
+                                  labels_[i].price + added.price};
           if (route.far > most_far_ ||
               route.price + rest_[tasks] + std::max(route.far, least_far_) >= bound_) {
             continue;
@@ -158,30 +164,51 @@ void RoutePool::close_routes(int kind) {
   }
 }
 
-// The labels are gone by now; those of one set are soon made again.
+// The labels are gone by now. What it takes at least to do the rest, as to each term alone, leads
+// to an order that has both.
 std::vector<int> RoutePool::order(const PooledRoute& route) const {
-  std::vector<int> tasks, best;
+  std::vector<int> tasks;
   for (TaskSet s = route.tasks; s; s &= s - 1) tasks.push_back(std::countr_zero(s));
-  const double reached = route.far + route.price;
-  std::vector<int> order;
-  const auto extend = [&](const auto& self, TaskSet left, const Leg& sum) -> bool {
-    const double slack = 1e-9 * (1.0 + reached);
-    if (far(sum) > route.far + slack || sum.price > route.price + slack) return false;
-    if (!left) {
-      best = order;
-      return true;
+  const std::size_t size = tasks.size();
+  const auto leg = [&](std::size_t from, std::size_t to) {
+    return weighted(costs_.leg(route.robot, from == size ? costs_.end() : tasks[from], tasks[to]));
+  };
+  // Per set of tasks left and place at which it is begun; the last place is the start.
+  std::vector<Label> least((std::size_t{1} << size) * (size + 1), {0.0, 0.0});
+  for (std::size_t left = 1; left < std::size_t{1} << size; ++left) {
+    for (std::size_t from = 0; from <= size; ++from) {
+      Label& known = least[left * (size + 1) + from] = {kNever, kNever};
+      for (std::size_t to = 0; to < size; ++to) {
+        if (!(left >> to & 1)) continue;
+        const Label& rest = least[(left ^ std::size_t{1} << to) * (size + 1) + to];
+        known.far = std::min(known.far, leg(from, to).far + rest.far);
+        known.price = std::min(known.price, leg(from, to).price + rest.price);
+      }
     }
-    for (const int task : tasks) {
-      if (!(left & one(task))) continue;
-      const int here = order.empty() ? costs_.end() : order.back();
-      order.push_back(task);
-      if (self(self, left ^ one(task), sum + costs_.leg(route.robot, here, task))) return true;
+  }
+  std::vector<int> order;
+  const double slack = 1e-9 * (1.0 + route.far + route.price);
+  const auto extend = [&](const auto& self, std::size_t left, std::size_t from,
+                          const Label& sum) -> bool {
+    const Label& rest = least[left * (size + 1) + from];
+    if (sum.far + rest.far > route.far + slack || sum.price + rest.price > route.price + slack) {
+      return false;
+    }
+    if (!left) return true;
+    for (std::size_t to = 0; to < size; ++to) {
+      if (!(left >> to & 1)) continue;
+      const Label next = leg(from, to);
+      order.push_back(tasks[to]);
+      if (self(self, left ^ std::size_t{1} << to, to,
+               {sum.far + next.far, sum.price + next.price})) {
+        return true;
+      }
       order.pop_back();
     }
     return false;
   };
-  extend(extend, route.tasks, {});
-  return best;
+  extend(extend, (std::size_t{1} << size) - 1, size, {0.0, 0.0});
+  return order;
 }
 
 }  // namespace clearway::assign

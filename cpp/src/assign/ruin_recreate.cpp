@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace clearway::assign {
 
@@ -14,7 +15,29 @@ constexpr double kGain = 1e-9;         // a gain below this is rounding
 constexpr double kFromLongest = 0.25;  // share of ruins that begin at the longest route
 constexpr double kNearShare = 0.15, kAnywhereShare = 0.05;
 
+void require(bool right, const char* what) {
+  if (!right) throw std::invalid_argument(what);
+}
+
 }  // namespace
+
+void RuinRecreateParams::check() const {
+  require(!rounds || *rounds >= 0, "rounds must be 0 or above");
+  require(removed >= 1, "removed must be 1 or above");
+  require(longest_string >= 1, "longest_string must be 1 or above");
+  require(blinks > 0.0 && blinks < 1.0, "blinks must be above 0 and below 1");
+  require(regret >= 0.0 && regret <= 1.0, "regret must be in [0, 1]");
+  require(last_temperature > 0.0 && last_temperature <= first_temperature &&
+              std::isfinite(first_temperature),
+          "last_temperature must be above 0 and at most first_temperature, and both finite");
+}
+
+std::int64_t rounds_for(const Costs& costs) {
+  constexpr std::int64_t kPerTask = 4000, kTimesTasks = 22'000'000;
+  constexpr std::int64_t kTimed = 20;  // a place is dearer to price where tasks are timed
+  const std::int64_t n = std::max(costs.tasks(), 1);
+  return std::min(kPerTask * n, kTimesTasks / n) / (costs.timed() ? kTimed : 1);
+}
 
 RuinRecreate::RuinRecreate(const Costs& costs, int seats, const RuinRecreateParams& params)
     : costs_(costs),
@@ -216,7 +239,6 @@ void RuinRecreate::sort_removed() {
 }
 
 bool RuinRecreate::recreate() {
-  if (costs_.timed()) late_ = tardiness();
   if (random_.unit() < params_.regret) return recreate_by_regret();
   sort_removed();
   double longest = here_.longest();
@@ -320,8 +342,9 @@ double RuinRecreate::worth() {
   return costs_.timed() ? value + costs_.weights().tardiness * late_ : value;
 }
 
-RuinRecreateResult RuinRecreate::operator()(const Routes& start, std::int64_t rounds,
-                                            std::uint64_t seed, Budget& budget) {
+RuinRecreateResult RuinRecreate::operator()(const Routes& start, std::uint64_t seed,
+                                            Budget& budget) {
+  const std::int64_t rounds = params_.rounds.value_or(rounds_for(costs_));
   random_ = Random(seed);
   gaps_.resize(256);
   for (auto& gap : gaps_) {
@@ -346,6 +369,7 @@ RuinRecreateResult RuinRecreate::operator()(const Routes& start, std::int64_t ro
     } else {
       ruin();
     }
+    if (costs_.timed()) late_ = tardiness();
     const bool complete = round == 0 ? recreate_by_regret() : recreate();
     const double now = complete ? worth() : kNever;
     const double slack = -temperature * std::log(1.0 - random_.unit());

@@ -20,7 +20,7 @@ double Schedule::run() {
   std::fill(ahead_.begin(), ahead_.end(), std::size_t{0});
   std::fill(now_.begin(), now_.end(), 0.0);
   open_.clear();
-  std::size_t left = 0;
+  left_ = 0;
   if (costs_.has_order()) {
     std::fill(ready_.begin(), ready_.end(), 0.0);
     std::fill(waits_.begin(), waits_.end(), 0);
@@ -29,7 +29,7 @@ double Schedule::run() {
   for (int k = 0; k < costs_.robots(); ++k) {
     const auto& route = routes_[static_cast<std::size_t>(k)];
     open_.push_back(k);
-    left += route.size();
+    left_ += route.size();
     if (!costs_.has_order()) continue;
     for (const int task : route) {
       holder_[static_cast<std::size_t>(task)] = k;
@@ -55,7 +55,7 @@ double Schedule::run() {
       late += std::max(0.0, done - costs_.due(task));
       now_[k] = done;
       ++ahead_[k];
-      --left;
+      --left_;
       if (!costs_.has_order()) continue;
       for (const int follower : costs_.followers(task)) {
         const auto f = static_cast<std::size_t>(follower);
@@ -66,7 +66,7 @@ double Schedule::run() {
       }
     }
   }
-  return left ? std::numeric_limits<double>::infinity() : late;
+  return left_ ? std::numeric_limits<double>::infinity() : late;
 }
 
 }  // namespace clearway::assign

@@ -29,8 +29,7 @@ double spanning_bound(const Costs& costs) {
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < n; ++j) {
         if (i == j) continue;
-        const double price =
-            costs.out_of(kind, static_cast<int>(i))[j].price - within[j];
+        const double price = costs.out_of(kind, static_cast<int>(i))[j].price - within[j];
         edge[i * n + j] = std::min(edge[i * n + j], price);
         edge[j * n + i] = std::min(edge[j * n + i], price);
       }

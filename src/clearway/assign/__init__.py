@@ -5,7 +5,10 @@ from clearway.assign.breeding import ELITIST, LITERAL, BreedingParams
 from clearway.assign.costs import build
 from clearway.assign.flight import Coefficients, FlightParams
 from clearway.assign.ga import Ga, GaParams
+from clearway.assign.exact import ExactAssigner
 from clearway.assign.insertion import InsertionLocalSearch, InsertionParams
+from clearway.assign.memetic import MemeticApsga, MemeticParams
+from clearway.assign.native import native_costs, values
 from clearway.assign.parking import park
 from clearway.assign.psga import Psga, PsgaParams
 from clearway.assign.pso import Pso, PsoParams
@@ -33,7 +36,21 @@ __all__ = [
     "RandomAssigner",
     "SwarmParams",
     "SwarmTrace",
+from clearway.assign.ruin_recreate import RuinRecreate, RuinRecreateParams
+from clearway.assign.tours import tours_of
+
+__all__ = [
+    "ExactAssigner",
+    "InsertionLocalSearch",
+    "InsertionParams",
+    "MemeticApsga",
+    "MemeticParams",
+    "RandomAssigner",
+    "RuinRecreate",
+    "RuinRecreateParams",
     "build",
+    "native_costs",
     "park",
     "tours_of",
+    "values",
 ]

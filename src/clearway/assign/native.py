@@ -1,10 +1,12 @@
 """An assignment problem handed to the native core."""
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from clearway import _core
-from clearway.protocols import AssignmentProblem
+from clearway.protocols import AssignmentProblem, Routes
 
 Floats = NDArray[np.float64]
 
@@ -61,6 +63,24 @@ def values(costs: _core.AssignmentCosts, orders: ArrayLike, cuts: ArrayLike) -> 
             np.ascontiguousarray(orders, dtype=np.int32), np.ascontiguousarray(cuts, dtype=np.int32)
         )
     )
+
+
+def require_ways(problem: AssignmentProblem, routes: Routes) -> Routes:
+    """Return the routes if every leg of theirs can be driven.
+
+    Raises
+    ------
+    ValueError
+        If a leg has no way; names the robot and the tasks.
+    """
+    for k, route in enumerate(routes):
+        for here, there in pairwise(route):
+            if not np.isfinite(problem.task_to_task[k, here, there]):
+                raise ValueError(
+                    f"no routes found without a leg that has no way: robot {problem.robots[k]} "
+                    f"cannot go from task {problem.tasks[here]} to {problem.tasks[there]}"
+                )
+    return routes
 
 
 def _kinds(problem: AssignmentProblem) -> tuple[list[int], list[int]]:

@@ -34,16 +34,16 @@ struct Leg {
 // Arrays of an assignment problem, row by row. Robots of one `kind` drive alike from task to task.
 struct Tables {
   int robots = 0, tasks = 0, kinds = 0;
-  std::vector<int> kind;                           // per robot
-  std::vector<double> start, start_turn;           // robots x tasks
-  std::vector<double> between;                     // kinds x tasks x tasks
-  std::vector<double> turn;                        // tasks x tasks
-  std::vector<double> inner;                       // robots x tasks, alike within a kind
-  std::vector<std::uint8_t> allowed;               // robots x tasks
+  std::vector<int> kind;                  // per robot
+  std::vector<double> start, start_turn;  // robots x tasks
+  std::vector<double> between;            // kinds x tasks x tasks
+  std::vector<double> turn;               // tasks x tasks
+  std::vector<double> inner;              // robots x tasks, alike within a kind
+  std::vector<std::uint8_t> allowed;      // robots x tasks
   Weights weights;
   double speed = 1.0;
-  std::vector<double> service, due;                // per task
-  std::vector<std::pair<int, int>> before;         // no circle
+  std::vector<double> service, due;         // per task
+  std::vector<std::pair<int, int>> before;  // no circle
 };
 
 using Routes = std::vector<std::vector<int>>;

@@ -11,9 +11,9 @@ namespace clearway::assign {
 
 struct ExactResult {
   Routes routes;
-  bool proven = false;           // false only if it was stopped
-  std::int64_t pooled = 0;       // routes that might be part of something better
-  std::int64_t branchings = 0;   // routes tried when putting them together
+  bool proven = false;          // false only if it was stopped
+  std::int64_t pooled = 0;      // routes that might be part of something better
+  std::int64_t branchings = 0;  // routes tried when putting them together
 };
 
 // The best routes of untimed problems of at most RoutePool::kMostTasks tasks, starting from legal

@@ -25,6 +25,7 @@ class RoutePool {
   // Routes of at most so many tasks that may add up, with others, to a value below `bound`.
   RoutePool(const Costs& costs, int seats, double bound);
 
+  // By robot, then by set.
   const std::vector<PooledRoute>& routes() const { return routes_; }
   // What the longest route is worth at least.
   double least_far() const { return least_far_; }
@@ -37,11 +38,14 @@ class RoutePool {
   };
 
   void bound_legs();
-  double least_price() const;
   void label(int kind);
   void close_routes(int kind);
   bool hopeless(TaskSet tasks, int first, const Label& label) const;
-  double far(const Leg& leg) const { return costs_.weights().longest * leg.distance; }
+  // A single robot's route is the longest: there is one price then.
+  Label weighted(const Leg& leg) const {
+    const double far = costs_.weights().longest * leg.distance;
+    return costs_.robots() == 1 ? Label{0.0, leg.price + far} : Label{far, leg.price};
+  }
 
   const Costs& costs_;
   int seats_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "clearway/assign/costs.hpp"
@@ -13,13 +14,19 @@
 namespace clearway::assign {
 
 struct RuinRecreateParams {
-  int removed = 10;                // tasks taken out at once, on average
-  int longest_string = 10;         // tasks taken out of one route in a row, at most
-  double blinks = 0.1;             // share of the places overlooked
-  double regret = 0.1;             // share of recreations by regret
-  double first_temperature = 0.5;  // in mean prices of a leg; more accepts worse routes
+  std::optional<std::int64_t> rounds;  // none: by the number of tasks, see rounds_for
+  int removed = 10;                    // tasks taken out at once, on average
+  int longest_string = 10;             // tasks taken out of one route in a row, at most
+  double blinks = 0.1;                 // share of the places overlooked
+  double regret = 0.1;                 // share of recreations by regret
+  double first_temperature = 1.0;      // in mean prices of a leg; more accepts worse routes
   double last_temperature = 0.01;
+
+  void check() const;  // throws std::invalid_argument
 };
+
+// As many rounds as take about 2 s of a core at the most; some hundredths of that for few tasks.
+std::int64_t rounds_for(const Costs& costs);
 
 struct RuinRecreateResult {
   Routes routes;
@@ -34,9 +41,8 @@ class RuinRecreate {
   // `seats`: most tasks that a robot may have.
   RuinRecreate(const Costs& costs, int seats, const RuinRecreateParams& params);
 
-  // Goes on from legal routes for as many rounds as given. The budget is only asked to stop.
-  RuinRecreateResult operator()(const Routes& start, std::int64_t rounds, std::uint64_t seed,
-                                Budget& budget);
+  // Goes on from legal routes. The budget is only asked to stop.
+  RuinRecreateResult operator()(const Routes& start, std::uint64_t seed, Budget& budget);
 
  private:
   struct Place {
@@ -71,14 +77,14 @@ class RuinRecreate {
   RuinRecreateParams params_;
   Random random_{0};
   Schedule schedule_;
-  RouteSet here_, kept_;           // the routes worked on, and as they were before the round
-  std::vector<int> near_;          // all tasks by nearness to each
+  RouteSet here_, kept_;   // the routes worked on, and as they were before the round
+  std::vector<int> near_;  // all tasks by nearness to each
   std::vector<int> removed_;
-  std::vector<int> touched_;       // robots whose routes changed in this round
+  std::vector<int> touched_;  // robots whose routes changed in this round
   std::vector<std::uint8_t> is_touched_;
-  std::vector<Place> places_;      // best per removed task and robot
+  std::vector<Place> places_;  // best per removed task and robot
   std::vector<double> far_;
-  std::vector<int> trial_;         // a route with one more task
+  std::vector<int> trial_;          // a route with one more task
   std::vector<std::uint8_t> gaps_;  // places until the next blink
   int until_blink_ = 0;
   double late_ = 0.0;  // of here_

@@ -13,7 +13,6 @@ class Schedule {
   explicit Schedule(const Costs& costs);
 
   // Sum of delays (s) over the tasks in the routes; infinite if routes wait for each other.
-  // `route(k)` gives a robot's tasks in order.
   double tardiness(const Routes& routes) {
     for (std::size_t k = 0; k < routes.size(); ++k) routes_[k] = routes[k];
     return run();
@@ -21,6 +20,8 @@ class Schedule {
   // The same, from views that stay as they are meanwhile.
   std::vector<std::span<const int>>& routes() { return routes_; }
   double run();
+  // How many tasks the last run left undone since routes wait for each other.
+  std::size_t left() const { return left_; }
 
  private:
   const Costs& costs_;
@@ -31,6 +32,7 @@ class Schedule {
   std::vector<int> waits_;          // for how many unfinished tasks a task waits
   std::vector<int> holder_;         // whose route a task is in; -1: in none
   std::vector<int> open_;           // robots that may go on
+  std::size_t left_ = 0;
 };
 
 }  // namespace clearway::assign
