@@ -64,7 +64,7 @@ Costs::Costs(const Tables& tables)
     return known;
   };
   for (std::size_t i = 0; i < m * n; ++i) {
-    start_[i] =
+    start_[(i % n) * m + i / n] =
         leg(allowed_[i] ? tables.start[i] + inner_[i] : std::numeric_limits<double>::infinity(),
             tables.start_turn[i]);
   }

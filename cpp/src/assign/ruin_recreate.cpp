@@ -50,6 +50,12 @@ RuinRecreate::RuinRecreate(const Costs& costs, int seats, const RuinRecreatePara
   is_touched_.resize(m);
   far_.resize(static_cast<std::size_t>(costs.tasks()));
   rank_neighbours();
+  for (int task = 0; task < costs.tasks(); ++task) {
+    double& far = far_[static_cast<std::size_t>(task)] = kNever;
+    for (int k = 0; k < costs.robots(); ++k) {
+      if (costs.allowed(k, task)) far = std::min(far, costs.start(k, task).distance);
+    }
+  }
 }
 
 // Tasks are near that follow each other at a low price, for any robot and in either order.
@@ -164,12 +170,6 @@ void RuinRecreate::ruin_anywhere() {
   }
 }
 
-bool RuinRecreate::blink() {
-  if (--until_blink_ > 0) return false;
-  until_blink_ = gaps_[random_.next() >> 56];
-  return true;
-}
-
 // The best place for a task in a robot's route, if it is better than the best so far.
 void RuinRecreate::look(int task, int robot, double longest, Place& best) {
   const int kind = costs_.kind(robot), count = here_.count(robot);
@@ -179,16 +179,31 @@ void RuinRecreate::look(int task, int robot, double longest, Place& best) {
   const Leg* legs = here_.legs(robot);
   const double weight = costs_.weights().longest;
   const double room = longest - here_.sum(robot).distance;
+  // Kept out of memory, since this is where the time goes.
+  double least = best.value;
+  Leg added;
+  int at = -1, until_blink = until_blink_;
+  const Leg* to = &costs_.start(robot, task);
   for (int i = 0; i <= count; ++i) {
-    if (blink()) continue;
-    const Leg& to = i ? into[nodes[i - 1]] : costs_.start(robot, task);
-    const Leg& from = out_of[nodes[i]];
-    const double price = to.price + from.price - legs[i].price;
-    if (price >= best.value) continue;
-    const double distance = to.distance + from.distance - legs[i].distance;
-    const double value = price + weight * std::max(0.0, distance - room);
-    if (value < best.value) best = {value, {distance, price}, robot, i};
+    const int node = nodes[i];
+    if (--until_blink > 0) {
+      const double price = to->price + out_of[node].price - legs[i].price;
+      if (price < least) {
+        const double distance = to->distance + out_of[node].distance - legs[i].distance;
+        const double value = price + weight * std::max(0.0, distance - room);
+        if (value < least) {
+          least = value;
+          added = {distance, price};
+          at = i;
+        }
+      }
+    } else {
+      until_blink = next_blink();
+    }
+    to = &into[node];
   }
+  until_blink_ = until_blink;
+  if (at >= 0) best = {least, added, robot, at};
 }
 
 // Likewise where being late counts: no place is better than what it adds without that.
@@ -198,7 +213,10 @@ void RuinRecreate::look_timed(int task, int robot, double longest, Place& best) 
   const Leg* legs = here_.legs(robot);
   const auto k = static_cast<std::size_t>(robot);
   for (int i = 0; i <= count; ++i) {
-    if (blink()) continue;
+    if (--until_blink_ <= 0) {
+      until_blink_ = next_blink();
+      continue;
+    }
     const Leg added = costs_.leg(robot, i ? nodes[i - 1] : costs_.end(), task) +
                       costs_.out_of(costs_.kind(robot), task)[nodes[i]] - legs[i];
     const double grown = here_.sum(robot).distance + added.distance - longest;
@@ -221,20 +239,14 @@ void RuinRecreate::put(int task, const Place& place) {
   if (costs_.timed()) late_ = tardiness();
 }
 
-// Random order, or those first that are far from all starts, or near to one.
+// Random order, or those first that are near to a start, or far from all.
 void RuinRecreate::sort_removed() {
   random_.shuffle(removed_);
   const int kind = random_.below(8);
   if (kind > 2) return;
-  for (const int task : removed_) {
-    double least = kNever;
-    for (int k = 0; k < costs_.robots(); ++k) {
-      if (costs_.allowed(k, task)) least = std::min(least, costs_.start(k, task).distance);
-    }
-    far_[static_cast<std::size_t>(task)] = kind == 0 ? least : -least;
-  }
   std::stable_sort(removed_.begin(), removed_.end(), [&](int a, int b) {
-    return far_[static_cast<std::size_t>(a)] < far_[static_cast<std::size_t>(b)];
+    const double difference = far_[static_cast<std::size_t>(a)] - far_[static_cast<std::size_t>(b)];
+    return kind == 0 ? difference < 0.0 : difference > 0.0;
   });
 }
 
@@ -346,7 +358,6 @@ RuinRecreateResult RuinRecreate::operator()(const Routes& start, std::uint64_t s
                                             Budget& budget) {
   const std::int64_t rounds = params_.rounds.value_or(rounds_for(costs_));
   random_ = Random(seed);
-  gaps_.resize(256);
   for (auto& gap : gaps_) {
     const double drawn = 1.0 + std::log(1.0 - random_.unit()) / std::log(1.0 - params_.blinks);
     gap = static_cast<std::uint8_t>(std::min(drawn, 255.0));
@@ -379,7 +390,7 @@ RuinRecreateResult RuinRecreate::operator()(const Routes& start, std::uint64_t s
       for (const int k : touched_) kept_.copy(k, here_);
       if (value < least - kGain) {
         least = value;
-        best = here_;
+        for (int k = 0; k < m; ++k) best.copy(k, here_);
       }
     } else {
       for (const int k : touched_) here_.copy(k, kept_);

@@ -77,7 +77,11 @@ class Costs {
   // included.
   const Leg* into(int kind, int task) const { return &into_[row(kind, task)]; }
   const Leg* out_of(int kind, int task) const { return &out_of_[row(kind, task)]; }
-  const Leg& start(int robot, int task) const { return start_[at(robot, task)]; }
+  const Leg& start(int robot, int task) const { return starts(task)[robot]; }
+  // From the start of each robot.
+  const Leg* starts(int task) const {
+    return &start_[static_cast<std::size_t>(task) * static_cast<std::size_t>(robots_)];
+  }
   const Leg& leg(int robot, int from, int to) const {
     return from == tasks_ ? start(robot, to) : out_of(kind(robot), from)[to];
   }

@@ -12,14 +12,12 @@ namespace clearway::assign {
 class RouteSet {
  public:
   // `seats`: most tasks that a robot may have.
-  RouteSet(const Costs& costs, int seats)
-      : costs_(&costs), seats_(seats), stride_(static_cast<std::size_t>(seats) + 1) {
+  RouteSet(const Costs& costs, int seats) : costs_(&costs), seats_(seats) {
     const auto m = static_cast<std::size_t>(costs.robots());
-    nodes_.assign(m * stride_, costs.end());
-    legs_.resize(m * stride_);
     count_.assign(m, 0);
     sum_.resize(m);
     robot_.assign(static_cast<std::size_t>(costs.tasks()), -1);
+    reserve(2 * (costs.tasks() / std::max(costs.robots(), 1)) + 8);
   }
 
   int seats() const { return seats_; }
@@ -50,6 +48,7 @@ class RouteSet {
   }
 
   void insert(int k, int position, int task) {
+    reserve(count(k) + 1);
     int* first = &nodes_[index(k) * stride_];
     const int count = count_[index(k)]++;
     std::copy_backward(first + position, first + count, first + count + 1);
@@ -65,6 +64,7 @@ class RouteSet {
     measure(k);
   }
   void assign(int k, std::span<const int> route) {
+    reserve(static_cast<int>(route.size()));
     int* first = &nodes_[index(k) * stride_];
     std::copy(route.begin(), route.end(), first);
     for (const int task : route) robot_[index(task)] = k;
@@ -76,10 +76,10 @@ class RouteSet {
   }
   // Take over another set's route, whose tasks nobody else has here.
   void copy(int k, const RouteSet& other) {
-    const std::size_t at = index(k) * stride_;
+    reserve(other.count(k));
     const auto number = static_cast<std::ptrdiff_t>(other.count(k)) + 1;
-    std::copy_n(&other.nodes_[at], number, &nodes_[at]);
-    std::copy_n(&other.legs_[at], number, &legs_[at]);
+    std::copy_n(other.nodes(k), number, &nodes_[index(k) * stride_]);
+    std::copy_n(other.legs(k), number, &legs_[index(k) * stride_]);
     count_[index(k)] = other.count(k);
     sum_[index(k)] = other.sum(k);
     for (const int task : route(k)) robot_[index(task)] = k;
@@ -94,6 +94,24 @@ class RouteSet {
 
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+  // Rows hold as many numbers as the longest route needed so far, so that they lie close together.
+  void reserve(int number) {
+    const std::size_t wanted = index(std::min(number, seats_)) + 1;
+    if (wanted <= stride_) return;
+    const std::size_t stride = std::min(std::max(wanted, 2 * stride_), index(seats_) + 1);
+    std::vector<int> nodes(count_.size() * stride, costs_->end());
+    std::vector<Leg> legs(count_.size() * stride);
+    for (std::size_t k = 0; stride_ && k < count_.size(); ++k) {
+      std::copy_n(nodes_.begin() + static_cast<std::ptrdiff_t>(k * stride_), stride_,
+                  nodes.begin() + static_cast<std::ptrdiff_t>(k * stride));
+      std::copy_n(legs_.begin() + static_cast<std::ptrdiff_t>(k * stride_), stride_,
+                  legs.begin() + static_cast<std::ptrdiff_t>(k * stride));
+    }
+    nodes_.swap(nodes);
+    legs_.swap(legs);
+    stride_ = stride;
+  }
 
   void measure(int k) {
     int* first = &nodes_[index(k) * stride_];
@@ -113,7 +131,7 @@ class RouteSet {
 
   const Costs* costs_;
   int seats_;
-  std::size_t stride_;
+  std::size_t stride_ = 0;
   std::vector<int> nodes_, count_, robot_;
   std::vector<Leg> legs_, sum_;
 };

@@ -1,6 +1,7 @@
 // Ruin and recreate: some tasks are taken out and put back where they cost least, again and again.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -65,7 +66,7 @@ class RuinRecreate {
   void look(int task, int robot, double longest, Place& best);
   void look_timed(int task, int robot, double longest, Place& best);
   void put(int task, const Place& place);
-  bool blink();
+  int next_blink() { return gaps_[random_.next() >> 56]; }
   double worth();
   double tardiness();
   const int* near(int task) const {
@@ -82,10 +83,10 @@ class RuinRecreate {
   std::vector<int> removed_;
   std::vector<int> touched_;  // robots whose routes changed in this round
   std::vector<std::uint8_t> is_touched_;
-  std::vector<Place> places_;  // best per removed task and robot
-  std::vector<double> far_;
-  std::vector<int> trial_;          // a route with one more task
-  std::vector<std::uint8_t> gaps_;  // places until the next blink
+  std::vector<Place> places_;             // best per removed task and robot
+  std::vector<double> far_;               // distance of each task from the nearest start
+  std::vector<int> trial_;                // a route with one more task
+  std::array<std::uint8_t, 256> gaps_{};  // draws of places until the next blink
   int until_blink_ = 0;
   double late_ = 0.0;  // of here_
 };
