@@ -16,6 +16,17 @@ Schedule::Schedule(const Costs& costs) : costs_(costs) {
   holder_.resize(n);
 }
 
+double Schedule::tardiness_alone(int robot, std::span<const int> route) const {
+  double now = 0.0, late = 0.0;
+  int here = costs_.end();
+  for (const int task : route) {
+    now += costs_.leg(robot, here, task).distance / costs_.speed() + costs_.service(task);
+    late += std::max(0.0, now - costs_.due(task));
+    here = task;
+  }
+  return late;
+}
+
 double Schedule::run() {
   std::fill(ahead_.begin(), ahead_.end(), std::size_t{0});
   std::fill(now_.begin(), now_.end(), 0.0);

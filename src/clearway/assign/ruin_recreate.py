@@ -13,7 +13,7 @@ class RuinRecreate:
     """Ruin and recreate with annealed acceptance, in the core.
 
     Strings of tasks of neighbouring routes are taken out, or tasks near each other, or any;
-    they are put back one by one where they cost least, a tenth of the places overlooked. Robots
+    they are put back one by one where they cost least, some places overlooked. Robots
     may be unlike, pairs forbidden, tasks due or waiting for each other.
 
     Parameters

@@ -18,7 +18,7 @@ struct RuinRecreateParams {
   std::optional<std::int64_t> rounds;  // none: by the number of tasks, see rounds_for
   int removed = 10;                    // tasks taken out at once, on average
   int longest_string = 10;             // tasks taken out of one route in a row, at most
-  double blinks = 0.1;                 // share of the places overlooked
+  double blinks = 0.02;                // share of the places overlooked
   double regret = 0.1;                 // share of recreations by regret
   double first_temperature = 1.0;      // in mean prices of a leg; more accepts worse routes
   double last_temperature = 0.01;
@@ -27,7 +27,7 @@ struct RuinRecreateParams {
 };
 
 // As many rounds as take about 2 s of a core at the most; some hundredths of that for few tasks.
-std::int64_t rounds_for(const Costs& costs);
+std::int64_t rounds_for(const Costs& costs, int seats);
 
 struct RuinRecreateResult {
   Routes routes;
@@ -60,7 +60,9 @@ class RuinRecreate {
   void ruin_anywhere();
   void take_out(int robot, int position, int number);
   void touch(int robot);
-  bool recreate();
+  void settle();
+  bool recreate(double regret);
+  bool recreate_in_turn();
   bool recreate_by_regret();
   void sort_removed();
   void look(int task, int robot, double longest, Place& best);
@@ -68,7 +70,7 @@ class RuinRecreate {
   void put(int task, const Place& place);
   int next_blink() { return gaps_[random_.next() >> 56]; }
   double worth();
-  double tardiness();
+  void time_again();
   const int* near(int task) const {
     return &near_[static_cast<std::size_t>(task) * static_cast<std::size_t>(costs_.tasks())];
   }
@@ -88,7 +90,8 @@ class RuinRecreate {
   std::vector<int> trial_;                // a route with one more task
   std::array<std::uint8_t, 256> gaps_{};  // draws of places until the next blink
   int until_blink_ = 0;
-  double late_ = 0.0;  // of here_
+  double late_ = 0.0;            // delays of here_
+  std::vector<double> late_by_;  // by robot, where no task waits for others
 };
 
 }  // namespace clearway::assign

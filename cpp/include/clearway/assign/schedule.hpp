@@ -20,6 +20,8 @@ class Schedule {
   // The same, from views that stay as they are meanwhile.
   std::vector<std::span<const int>>& routes() { return routes_; }
   double run();
+  // Delays of one robot's tasks where no task waits for others.
+  double tardiness_alone(int robot, std::span<const int> route) const;
   // How many tasks the last run left undone since routes wait for each other.
   std::size_t left() const { return left_; }
 
