@@ -132,7 +132,9 @@ TEST_CASE("Effort ends where the budget says stop") {
   CHECK_FALSE(solve_exactly(costs, 16, dealt(4, 16), none).proven);
   none = {};
   none.expansions = 0;
-  CHECK(swarm_memetically(costs, 4, dealt(4, 16), {}, 1, none).evaluations == 30);
+  const MemeticResult swarm = swarm_memetically(costs, 4, dealt(4, 16), {}, 1, none);
+  CHECK(longest_count(swarm.routes) == 4);
+  CHECK(swarm.evaluations < 500);  // a whole descent prices thousands
 }
 
 TEST_CASE("A doubled number keeps one of its places, each as often as the other") {

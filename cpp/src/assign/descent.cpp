@@ -88,7 +88,7 @@ bool Descent::improves(int a, int b) {
     price += sum_b_.price - sums_[static_cast<std::size_t>(b)].price;
     longest = std::max(longest, sum_b_.distance);
   }
-  bool better = price < value_ - kGain;
+  bool better = budget_->spend() && price < value_ - kGain;
   if (better) {
     longest = std::max(longest, longest_of_others(a, b));
     trial_value_ = price + costs_.weights().longest * longest;
@@ -170,7 +170,8 @@ bool Descent::exchange_tails() {
   return better;
 }
 
-double Descent::operator()(Permutation& permutation) {
+double Descent::operator()(Permutation& permutation, Budget& budget) {
+  budget_ = &budget;
   value(permutation);
   for (bool better = true; better;) {
     better = swap_pairs();

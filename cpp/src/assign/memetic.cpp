@@ -129,13 +129,13 @@ MemeticResult swarm_memetically(const Costs& costs, int seats, const Routes& sta
       cross(children[pairs[i]], children[pairs[i + 1]], random);
     }
     for (std::size_t i = 0; i < number; ++i) {
-      if (!budget.spend()) break;
+      if (budget.ended) break;
       if (random.unit() < params.mutation) {
         const int a = random.below(descent.size()), b = random.below(descent.size());
         std::swap(children[i][static_cast<std::size_t>(a)],
                   children[i][static_cast<std::size_t>(b)]);
       }
-      const double value = descent(children[i]);
+      const double value = descent(children[i], budget);
       Particle& particle = swarm[i];
       if (value < particle.value) {
         particle.here = children[i];

@@ -7,6 +7,7 @@
 
 #include "clearway/assign/costs.hpp"
 #include "clearway/assign/schedule.hpp"
+#include "clearway/budget.hpp"
 
 namespace clearway::assign {
 
@@ -23,8 +24,8 @@ class Descent {
   // The objective; what is not legal costs more than anything that is.
   double value(const Permutation& permutation);
   // Swap pairs, move or reverse parts within a robot, exchange equally long tails, as long as
-  // something gets better; returns the value reached.
-  double operator()(Permutation& permutation);
+  // something gets better and the budget lasts, a neighbour each; returns the value reached.
+  double operator()(Permutation& permutation, Budget& budget);
   Routes routes(const Permutation& permutation) const;
   std::int64_t evaluations() const { return evaluations_; }
 
@@ -47,6 +48,7 @@ class Descent {
   Leg sum_a_, sum_b_;
   double price_ = 0.0, value_ = 0.0, trial_value_ = 0.0;
   std::int64_t evaluations_ = 0;
+  Budget* budget_ = nullptr;
 };
 
 }  // namespace clearway::assign
