@@ -92,6 +92,7 @@ void repair(Permutation& permutation, Random& random) {
 
 MemeticResult swarm_memetically(const Costs& costs, int seats, const Routes& start,
                                 const MemeticParams& params, std::uint64_t seed, Budget& budget) {
+  if (costs.tasks() == 0) return {start, 0};
   Random random(seed);
   Descent descent(costs, seats);
   const auto size = static_cast<std::size_t>(descent.size());

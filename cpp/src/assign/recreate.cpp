@@ -23,17 +23,18 @@ void RuinRecreate::look(int task, int robot, double longest, Place& best) {
   const double room = longest - here_.sum(robot).distance;
   // Kept out of memory, since this is where the time goes.
   double least = best.value;
-  Leg added;
+  Leg added = best.added;
   int at = -1, until_blink = until_blink_;
   const Leg* to = &costs_.start(robot, task);
   for (int i = 0; i <= count; ++i) {
     const int node = nodes[i];
     if (--until_blink > 0) {
       const double price = to->price + out_of[node].price - legs[i].price;
-      if (price < least) {
+      if (price <= least) {
         const double distance = to->distance + out_of[node].distance - legs[i].distance;
         const double value = price + weight * std::max(0.0, distance - room);
-        if (value < least) {
+        // Where only the longest route counts, many places cost nothing; the shortest way wins.
+        if (value < least || (value == least && distance < added.distance)) {
           least = value;
           added = {distance, price};
           at = i;
