@@ -147,7 +147,7 @@ void bind_assign(nb::module_& m) {
             new (self) Ruin(params);
           },
           "rounds"_a.none() = nb::none(), "removed"_a = 10, "longest_string"_a = 10,
-          "blinks"_a = 0.02, "regret"_a = 0.1, "first_temperature"_a = 1.0,
+          "blinks"_a = 0.02, "regret"_a = 0.02, "first_temperature"_a = 1.0,
           "last_temperature"_a = 0.01)
       .def_ro("rounds", &Ruin::rounds,
               "Times that tasks are taken out and put back; more find better routes. None: by the "

@@ -3,6 +3,8 @@
 NB_MODULE(_core, m) {
   m.doc() =
       "Native search core: geometry, motion tables, space, search, multi-robot search, assignment.";
+  // Parameters may live in globals, which Python need not clear before it ends.
+  nanobind::set_leak_warnings(false);
   clearway::bindings::bind_body(m);
   clearway::bindings::bind_statics(m);
   clearway::bindings::bind_motion(m);

@@ -708,7 +708,7 @@ class AssignmentCosts:
 class RuinRecreateParams:
     """Effort and shape of ruin and recreate."""
 
-    def __init__(self, rounds: int | None = None, removed: int = 10, longest_string: int = 10, blinks: float = 0.02, regret: float = 0.1, first_temperature: float = 1.0, last_temperature: float = 0.01) -> None: ...
+    def __init__(self, rounds: int | None = None, removed: int = 10, longest_string: int = 10, blinks: float = 0.02, regret: float = 0.02, first_temperature: float = 1.0, last_temperature: float = 0.01) -> None: ...
 
     @property
     def rounds(self) -> int | None:

@@ -31,7 +31,7 @@ void RuinRecreateParams::check() const {
 }
 
 std::int64_t rounds_for(const Costs& costs, int seats) {
-  constexpr std::int64_t kPerTask = 6000, kTimesTasks = 30'000'000;
+  constexpr std::int64_t kPerTask = 7000, kTimesTasks = 40'000'000;
   constexpr std::int64_t kTimed = 4;  // a place is dearer to price where tasks are timed
   const std::int64_t n = std::max(costs.tasks(), 1);
   std::int64_t rounds = std::min(kPerTask * n, kTimesTasks / n);

@@ -19,7 +19,7 @@ struct RuinRecreateParams {
   int removed = 10;                    // tasks taken out at once, on average
   int longest_string = 10;             // tasks taken out of one route in a row, at most
   double blinks = 0.02;                // share of the places overlooked
-  double regret = 0.1;                 // share of recreations by regret
+  double regret = 0.02;                // share of recreations by regret
   double first_temperature = 1.0;      // in mean prices of a leg; more accepts worse routes
   double last_temperature = 0.01;
 
