@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from tests.oracles.brute_force_assignment import optimum
 
-from clearway.assign import ExactAssigner
+from clearway.assign import ExactAssigner, RuinRecreate, RuinRecreateParams
 from clearway.protocols import Weights, objective
 
 
@@ -79,6 +79,17 @@ def test_the_free_optimum_is_never_above_the_even_one(make_problem):
         problem = make_problem(seed, m=3, n=10)
         even, free = (objective(problem, ExactAssigner(e)(problem, 0)).value for e in (True, False))
         assert free <= even + 1e-9
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_long_search_finds_nothing_better(make_problem, seed):
+    """Thirteen tasks, unlike robots, a fifth of the pairs forbidden: no value below the proof."""
+    problem = make_problem(seed, m=1 + seed % 4, n=13, refused=0.2)
+    for even in (True, False):
+        if not ExactAssigner(even).unsupported(problem):
+            proof = objective(problem, ExactAssigner(even)(problem, 0)).value
+            search = RuinRecreate(even, RuinRecreateParams(rounds=4000))
+            assert proof <= objective(problem, search(problem, seed)).value + 1e-9
 
 
 def test_more_than_it_can_prove_is_refused(make_problem):
