@@ -105,6 +105,20 @@ class Family(enum.Enum):
 
     TRANSLATE = 3
 
+class Step:
+    """One part of a connection or of a primitive."""
+
+    def __init__(self, mode: int, twist: Twist, duration: int) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @property
+    def twist(self) -> Twist: ...
+
+    @property
+    def duration(self) -> int: ...
+
 class Primitive:
     """One short motion of a table."""
 
@@ -124,10 +138,31 @@ class Primitive:
 
     @property
     def allowed_from(self) -> int:
-        """Modes in which it may begin, as bits."""
+        """Modes in which it may begin, as bits; the last of 64: in none."""
 
     @allowed_from.setter
     def allowed_from(self, arg: int, /) -> None: ...
+
+    @property
+    def steps(self) -> list[Step]:
+        """How it is driven; empty: evenly."""
+
+    @steps.setter
+    def steps(self, arg: Sequence[Step], /) -> None: ...
+
+class Pace:
+    """A mode at a speed."""
+
+    def __init__(self, moving: int, course: int, speed: float) -> None: ...
+
+    @property
+    def moving(self) -> int: ...
+
+    @property
+    def course(self) -> int: ...
+
+    @property
+    def speed(self) -> float: ...
 
 class Connection:
     """How one family of analytic curves is driven."""
@@ -277,18 +312,6 @@ class Objective:
     @waiting.setter
     def waiting(self, arg: float, /) -> None: ...
 
-class Step:
-    """One part of a connection."""
-
-    @property
-    def mode(self) -> int: ...
-
-    @property
-    def twist(self) -> Twist: ...
-
-    @property
-    def duration(self) -> int: ...
-
 class MotionTable:
     """A robot's motions as a table."""
 
@@ -336,7 +359,31 @@ class MotionTable:
     @switch_duration.setter
     def switch_duration(self, arg: int, /) -> None: ...
 
-def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose) -> list[Step]:
+    @property
+    def paces(self) -> list[Pace]:
+        """What each mode is, where acceleration is limited."""
+
+    @paces.setter
+    def paces(self, arg: Sequence[Pace], /) -> None: ...
+
+    @property
+    def acceleration(self) -> float: ...
+
+    @acceleration.setter
+    def acceleration(self, arg: float, /) -> None: ...
+
+    @property
+    def deceleration(self) -> float: ...
+
+    @deceleration.setter
+    def deceleration(self, arg: float, /) -> None: ...
+
+def ramp(length: float, enter: float, leave: float, top: float, acceleration: float, deceleration: float) -> list[tuple[float, int]]:
+    """
+    Steps of even speed (m, ticks) from one speed to another; none where it is too short.
+    """
+
+def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose, mode: int = -1) -> list[Step]:
     """Steps of the best obstacle-free connection between two poses."""
 
 class TimedPiece:
@@ -365,7 +412,7 @@ class TimedPiece:
 class Leg:
     """Drive to a goal, then stand there."""
 
-    def __init__(self, goal: Pose, service: int, body: int) -> None: ...
+    def __init__(self, goal: Pose, service: int, body: int, not_before: int = 0) -> None: ...
 
 class Model:
     """What all robots of one type share."""
@@ -681,9 +728,194 @@ def trace_tour(models: Sequence[Model], agents: Sequence[Agent], params: TeamPar
     Search one robot's tour among others' and tell the states expanded, in order.
     """
 
-def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None) -> TeamAnswer:
+def plan_team(models: Sequence[Model], agents: Sequence[Agent], params: TeamParams, seed: int, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, int, float | None], None] | None = None, improve: bool = True) -> TeamAnswer:
     """
     Plan a team, then plan it better until the budget or an interrupt ends that.
+    """
+
+class Heuristic(enum.Enum):
+    """How a search over a lattice estimates what is left."""
+
+    LOOK_BACK = 0
+
+    BOUND = 1
+
+    PAPER = 2
+
+class ConflictMode(enum.Enum):
+    """What conflict-based search aims at."""
+
+    OPTIMAL = 0
+
+    BOUNDED = 1
+
+    GREEDY = 2
+
+class LatticeParams:
+    """What makes a robot's finite graph."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def slot(self) -> int: ...
+
+    @slot.setter
+    def slot(self, arg: int, /) -> None: ...
+
+    @property
+    def shot_words(self) -> int: ...
+
+    @shot_words.setter
+    def shot_words(self, arg: int, /) -> None: ...
+
+    @property
+    def shot_reach(self) -> float: ...
+
+    @shot_reach.setter
+    def shot_reach(self, arg: float, /) -> None: ...
+
+    @property
+    def most_nodes(self) -> int: ...
+
+    @most_nodes.setter
+    def most_nodes(self, arg: int, /) -> None: ...
+
+class ConflictParams:
+    """Choices of conflict-based search."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def mode(self) -> ConflictMode: ...
+
+    @mode.setter
+    def mode(self, arg: ConflictMode, /) -> None: ...
+
+    @property
+    def objective(self) -> Objective: ...
+
+    @objective.setter
+    def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def lattice(self) -> LatticeParams: ...
+
+    @lattice.setter
+    def lattice(self, arg: LatticeParams, /) -> None: ...
+
+    @property
+    def heuristic(self) -> Heuristic: ...
+
+    @heuristic.setter
+    def heuristic(self, arg: Heuristic, /) -> None: ...
+
+    @property
+    def factor(self) -> float: ...
+
+    @factor.setter
+    def factor(self, arg: float, /) -> None: ...
+
+    @property
+    def xi(self) -> float: ...
+
+    @xi.setter
+    def xi(self, arg: float, /) -> None: ...
+
+    @property
+    def adaptive(self) -> bool: ...
+
+    @adaptive.setter
+    def adaptive(self, arg: bool, /) -> None: ...
+
+    @property
+    def meeting(self) -> float: ...
+
+    @meeting.setter
+    def meeting(self, arg: float, /) -> None: ...
+
+    @property
+    def attempts(self) -> int: ...
+
+    @attempts.setter
+    def attempts(self, arg: int, /) -> None: ...
+
+    @property
+    def first_limit(self) -> int: ...
+
+    @first_limit.setter
+    def first_limit(self, arg: int, /) -> None: ...
+
+    @property
+    def most_nodes(self) -> int: ...
+
+    @most_nodes.setter
+    def most_nodes(self, arg: int, /) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+class ConflictStatus(enum.Enum):
+    """How conflict-based search ended."""
+
+    SOLVED = 0
+
+    STOPPED = 1
+
+    NONE = 2
+
+class ConflictAnswer:
+    """What conflict-based search came to."""
+
+    @property
+    def status(self) -> ConflictStatus: ...
+
+    @property
+    def tours(self) -> list[TourResult]: ...
+
+    @property
+    def concerned(self) -> list[int]: ...
+
+    @property
+    def cost(self) -> float: ...
+
+    @property
+    def proven(self) -> bool: ...
+
+    @property
+    def largest_group(self) -> int: ...
+
+    @property
+    def bound(self) -> float: ...
+
+    @property
+    def expansions(self) -> int: ...
+
+    @property
+    def nodes(self) -> int: ...
+
+    @property
+    def searches(self) -> int: ...
+
+    @property
+    def too_large(self) -> bool: ...
+
+    @property
+    def interrupted(self) -> bool: ...
+
+def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
+    """Plan a team by conflict-based search on bodies."""
+
+class LoneLeg:
+    """From one pose to another, with a body."""
+
+    def __init__(self, start: Pose, goal: Pose, body: int) -> None: ...
+
+def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) -> list[int]:
+    """
+    Ticks that each leg takes with nobody else on the site; -1 where no way is found.
     """
 
 class AssignmentCosts:
