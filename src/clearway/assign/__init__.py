@@ -1,6 +1,7 @@
 """Ways to share out work: what it costs, who does it, where robots rest."""
 
 from clearway.assign.apsga import AdaptationParams, Apsga, ApsgaParams
+from clearway.assign.automatic import AutomaticAssigner
 from clearway.assign.breeding import ELITIST, LITERAL, BreedingParams
 from clearway.assign.costs import build
 from clearway.assign.exact import ExactAssigner
@@ -23,6 +24,7 @@ __all__ = [
     "AdaptationParams",
     "Apsga",
     "ApsgaParams",
+    "AutomaticAssigner",
     "BreedingParams",
     "Coefficients",
     "ExactAssigner",

@@ -9,13 +9,31 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from typing import Literal
 
-from clearway.assign import InsertionLocalSearch, RandomAssigner, park
-from clearway.assign.insertion import InsertionParams
+from clearway.assign import (
+    Apsga,
+    AutomaticAssigner,
+    ExactAssigner,
+    Ga,
+    InsertionLocalSearch,
+    InsertionParams,
+    MemeticApsga,
+    Psga,
+    Pso,
+    RandomAssigner,
+    RuinRecreate,
+    park,
+)
 from clearway.coordinate import ByDuration, Searched, System, Travel, bounded_seconds, by_grid
 from clearway.coordinate.value import Value, makespan, paper, sum_of_costs
 from clearway.model import Scenario, Visit
-from clearway.plan import Aim, PrioritisedPlanner, TeamParams
-from clearway.protocols import Assigner, Weights
+from clearway.plan import (
+    Aim,
+    ConflictBasedSearch,
+    ConflictParams,
+    PrioritisedPlanner,
+    TeamParams,
+)
+from clearway.protocols import Assigner, Planner, Weights
 from clearway.systems.settings import SettingsError
 
 MOST_ROUNDS = 100
@@ -29,7 +47,10 @@ class HierarchicalSettings:
     Parameters
     ----------
     assign
-        ``insertion`` with local search, or ``random`` (the paper's NTA).
+        ``auto``: what suits the problem (`clearway.assign.AutomaticAssigner`); ``exact`` (up to
+        16 tasks), ``memetic`` (even splits), ``ruin`` and recreate, ``insertion`` with local
+        search; the paper's ``apsga`` and its rivals ``psga``, ``pso``, ``ga`` (even splits) and
+        ``random`` (its NTA).
     even
         Give every robot the same number of tasks, as the paper's encoding does.
     max_distance, total_distance, turning
@@ -44,14 +65,32 @@ class HierarchicalSettings:
         is kept. Each round assigns and plans once more.
     park
         Who ends in a parking bay: robots ``blocking`` others, ``always`` all, ``never``.
+    plan
+        By ``priorities``, improved while a budget lasts; or by search over conflicts, the
+        paper's own way: ``adaptive`` (greedy), ``bounded`` (proven within ``factor`` on a finite
+        graph) or ``optimal`` on it.
+    factor
+        Of ``bounded``.
     objective
         What planning minimises: ``time`` (sum of costs), ``makespan`` (the last arrival, then
         the sum), or the ``paper`` cost (eq. 21).
     weight
-        Factor on the heuristic; larger plans faster and drives longer.
+        Factor on the heuristic; larger plans faster and drives longer. Of ``adaptive`` it is
+        the largest xi (eq. 23); ``bounded`` and ``optimal`` know none.
     """
 
-    assign: Literal["insertion", "random"] = "insertion"
+    assign: Literal[
+        "auto",
+        "exact",
+        "memetic",
+        "ruin",
+        "insertion",
+        "apsga",
+        "psga",
+        "pso",
+        "ga",
+        "random",
+    ] = "auto"
     even: bool = False
     max_distance: float = 1.0
     total_distance: float = 1.0
@@ -60,6 +99,8 @@ class HierarchicalSettings:
     travel: Literal["grid", "curves", "planned"] = "grid"
     rounds: int = 0
     park: Literal["blocking", "always", "never"] = "blocking"
+    plan: Literal["priorities", "adaptive", "bounded", "optimal"] = "priorities"
+    factor: float = 1.05
     objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
 
@@ -71,6 +112,13 @@ class HierarchicalSettings:
             raise SettingsError("system.rounds", self.rounds, f"write 0 to {MOST_ROUNDS}")
         if not (math.isfinite(self.weight) and self.weight > 0.0):
             raise SettingsError("system.weight", self.weight, "write a number above 0")
+        if not (math.isfinite(self.factor) and self.factor >= 1.0):
+            raise SettingsError("system.factor", self.factor, "write 1 or above")
+        if self.plan != "priorities" and self.objective == "makespan":
+            mend = 'search over conflicts minimises "time" or "paper"; or plan = "priorities"'
+            raise SettingsError("system.objective", self.objective, mend)
+        if self.plan == "adaptive" and self.weight < 1.0:
+            raise SettingsError("system.weight", self.weight, "write 1 or above for adaptive")
 
 
 def hierarchical(settings: HierarchicalSettings) -> System:
@@ -88,7 +136,15 @@ def hierarchical(settings: HierarchicalSettings) -> System:
         return park(scenario.site, scenario.robot_types, scenario.robots, tours, settings.park)
 
     assigners: dict[str, Assigner] = {
+        "auto": AutomaticAssigner(even=settings.even),
+        "exact": ExactAssigner(even=settings.even),
+        "memetic": MemeticApsga(),
+        "ruin": RuinRecreate(even=settings.even),
         "insertion": InsertionLocalSearch(InsertionParams(even=settings.even)),
+        "apsga": Apsga(),
+        "psga": Psga(),
+        "pso": Pso(),
+        "ga": Ga(),
         "random": RandomAssigner(even=settings.even),
     }
     travels: dict[str, Travel] = {
@@ -100,7 +156,7 @@ def hierarchical(settings: HierarchicalSettings) -> System:
         name="hierarchical",
         assign=assigners[settings.assign],
         own_tasks=own_tasks,
-        plan=PrioritisedPlanner(params),
+        plan=_planner(settings, params),
         travel=travels[settings.travel],
         rounds=settings.rounds,
         value=VALUES[settings.objective],
@@ -108,4 +164,17 @@ def hierarchical(settings: HierarchicalSettings) -> System:
             settings.max_distance, settings.total_distance, settings.turning, settings.tardiness
         ),
         parameters=asdict(settings),
+    )
+
+
+def _planner(settings: HierarchicalSettings, params: TeamParams) -> Planner:
+    if settings.plan == "priorities":
+        return PrioritisedPlanner(params)
+    return ConflictBasedSearch(
+        ConflictParams(
+            mode=settings.plan,
+            factor=settings.factor,
+            xi=settings.weight,
+            paper_cost=settings.objective == "paper",
+        )
     )
