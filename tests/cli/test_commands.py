@@ -133,16 +133,17 @@ def test_validate_finds_nothing_wrong_in_a_right_plan(clearway, solved_hall):
 def test_validate_lists_what_is_wrong(clearway, solved_hall, tmp_path):
     """A robot that starts a metre off: exit code 1, kind and robot by name."""
     plan = json.loads((solved_hall / "plan.json").read_text())
-    plan["robots"][0]["start"][1] += 1.0
+    robot = next(robot for robot in plan["robots"] if robot["id"] in plan["trajectories"])
+    robot["start"][1] += 1.0
     (tmp_path / "wrong.json").write_text(json.dumps(plan))
     told = clearway("validate", "wrong.json")
     assert told.code == 1
-    assert "start a" in told.out
+    assert f"start {robot['id']}" in told.out
     told = clearway("validate", "wrong.json", "--json")
     assert told.code == 1
     assert told.json["right"] is False
     (found,) = (v for v in told.json["violations"] if v["kind"] == "start")
-    assert found["robots"] == ["a"]
+    assert found["robots"] == [robot["id"]]
     assert found["time"] == 0.0
 
 

@@ -1,13 +1,15 @@
 """Settings of a system are checked before anything runs."""
 
 from dataclasses import replace
+from typing import get_args
 
 import pytest
 from tests.systems.sites import hall
 
-from clearway.assign import InsertionLocalSearch, RandomAssigner
+from clearway.assign import AutomaticAssigner, RandomAssigner, build
 from clearway.coordinate.value import paper
-from clearway.protocols import Weights
+from clearway.plan import ConflictBasedSearch, ConflictParams, PrioritisedPlanner
+from clearway.protocols import Weights, check_routes
 from clearway.systems import HierarchicalSettings, SettingsError, choose_system
 
 
@@ -19,7 +21,8 @@ def test_without_settings_the_defaults_hold():
     """The parameters of the system are its settings, one by one."""
     system = chosen()
     assert system.name == "hierarchical"
-    assert isinstance(system.assign, InsertionLocalSearch)
+    assert isinstance(system.assign, AutomaticAssigner)
+    assert isinstance(system.plan, PrioritisedPlanner)
     assert set(system.parameters) == set(HierarchicalSettings.__dataclass_fields__)
 
 
@@ -34,6 +37,25 @@ def test_settings_reach_their_parts():
     assert system.plan.params.search.weight == 2.5
     assert not system.plan.params.objective.time
     assert chosen().plan.params.objective.time
+
+
+@pytest.mark.parametrize("name", get_args(HierarchicalSettings.__annotations__["assign"]))
+@pytest.mark.parametrize("even", [False, True])
+def test_every_assigner_has_its_name(name, even):
+    """Each of them shares out the work of the hall."""
+    system = chosen(assign=name, even=even)
+    problem = build(hall())
+    assert system.assign.unsupported(problem) == ()
+    check_routes(problem, system.assign(problem, 0))
+
+
+@pytest.mark.parametrize("mode", ["adaptive", "bounded", "optimal"])
+def test_search_over_conflicts_is_chosen_by_its_mode(mode):
+    """With the objective and the factors given."""
+    plan = chosen(plan=mode, factor=1.5, weight=1.7, objective="paper").plan
+    assert isinstance(plan, ConflictBasedSearch)
+    assert plan.params == ConflictParams(mode=mode, factor=1.5, xi=1.7, paper_cost=True)
+    assert not chosen(plan=mode).plan.params.paper_cost
 
 
 def test_a_whole_number_serves_where_a_number_is_wanted():
@@ -54,6 +76,11 @@ def test_a_whole_number_serves_where_a_number_is_wanted():
         ({"tardiness": -1.0}, "system.tardiness", "0 or above"),
         ({"travel": "flight"}, "system.travel", "planned"),
         ({"rounds": -1}, "system.rounds", "0 to 100"),
+        ({"assign": "simplex"}, "system.assign", "memetic"),
+        ({"plan": "magic"}, "system.plan", "adaptive"),
+        ({"factor": 0.9}, "system.factor", "1 or above"),
+        ({"objective": "makespan", "plan": "optimal"}, "system.objective", "paper"),
+        ({"weight": 0.5, "plan": "adaptive"}, "system.weight", "1 or above"),
     ],
 )
 def test_a_setting_that_does_not_fit_is_named(settings, key, mend):
