@@ -130,6 +130,18 @@ void bind_motion(nb::module_& m) {
       },
       "table"_a, "objective"_a, "start"_a, "goal"_a, "mode"_a = -1,
       "Steps of the best obstacle-free connection between two poses.");
+  m.def(
+      "connections",
+      [](const MotionTable& table, const Objective& objective, const Pose& from, const Pose& to,
+         std::size_t count) {
+        std::vector<Shot> shots;
+        connect(table, objective, from, to, count, shots);
+        std::vector<std::vector<Step>> ways;
+        for (Shot& shot : shots) ways.push_back(std::move(shot.steps));
+        return ways;
+      },
+      "table"_a, "objective"_a, "start"_a, "goal"_a, "count"_a,
+      "Steps of the best obstacle-free connections, at most `count`; mode -1 stands between modes.");
 }
 
 }  // namespace clearway::bindings
