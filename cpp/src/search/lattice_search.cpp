@@ -136,7 +136,11 @@ void LatticeSearch::compile(const std::vector<Rule>& rules) {
   points_.clear();
   least_rest_ = 0;
   last_rest_ = kEver;
+  last_change_ = 0;
   for (const Rule& rule : rules) {
+    const bool in_slots = rule.kind == Rule::Kind::kStand || rule.kind == Rule::Kind::kRest;
+    const std::int32_t end = std::max(rule.from, rule.to);
+    last_change_ = std::max(last_change_, in_slots ? end : end / params_.slot + 1);
     switch (rule.kind) {
       case Rule::Kind::kMotion:
         motion_rules_[static_cast<std::size_t>(rule.leg)].push_back(rule);
@@ -339,24 +343,6 @@ Slot LatticeSearch::stands_until(int leg, std::int32_t node, Slot from) {
   return until;
 }
 
-// First slot after one in which a robot must not stand at a node, in which it may; kEver if none.
-Slot LatticeSearch::blocked_until(int leg, std::int32_t node, Slot slot) {
-  while (slot < kEver && stands_until(leg, node, slot) == slot) {
-    Slot next = slot + 1;
-    const auto rules = stand_rules_.find(key_of(leg, node, 0));
-    if (rules != stand_rules_.end()) {
-      for (const auto& [begin, end] : rules->second.spans) {
-        if (begin <= slot && end >= slot) next = std::max(next, end + 1);
-      }
-    }
-    for (const Rule& rule : avoid_) {
-      if (rule.from / params_.slot <= slot && rests_on(rule.other, leg, node)) return kEver;
-    }
-    slot = next;
-  }
-  return slot;
-}
-
 std::size_t LatticeSearch::state(const Label& label) const {
   const Lattice& lattice = lattices_[static_cast<std::size_t>(label.leg)];
   const auto wide = static_cast<std::size_t>(lattice.num_modes()) + 1;
@@ -398,7 +384,6 @@ void LatticeSearch::push(Label label) {
   if (label.leg < num_legs()) {
     const Lattice& lattice = lattices_[static_cast<std::size_t>(label.leg)];
     label.end = stands_until(label.leg, label.node, label.t);
-    label.over = kEver;
     if (label.mode >= 0 && !model_.table.rest[static_cast<std::size_t>(label.mode)]) {
       label.end = label.t;
     }
@@ -408,7 +393,10 @@ void LatticeSearch::push(Label label) {
     if (heads.size() < static_cast<std::size_t>(lattice.num_nodes()) * wide) {
       heads.resize(static_cast<std::size_t>(lattice.num_nodes()) * wide, kNone);
     }
-    if (dominated(label, heads[s])) return;
+    if (dominated(label, heads[s])) {
+      later(label);
+      return;
+    }
     if (heads[s] == kNone) touched_.emplace_back(label.leg, s);
     label.next = heads[s];
     heads[s] = static_cast<std::int32_t>(labels_.size());
@@ -443,14 +431,7 @@ void LatticeSearch::expand(std::int32_t index) {
   const Label label = labels_[static_cast<std::size_t>(index)];
   Lattice& lattice = lattices_[static_cast<std::size_t>(label.leg)];
   const std::size_t count = lattice.num_motions(label.node);
-  // The window in which it must not stand ends here.
-  Slot over = label.end;
-  if (label.end < kEver) {
-    over = blocked_until(label.leg, label.node, label.end);
-    labels_[static_cast<std::size_t>(index)].over = over;
-    const bool resting = label.mode < 0 || model_.table.rest[static_cast<std::size_t>(label.mode)];
-    if (over < kEver && over > label.t && resting) later(index, over);
-  }
+  later(label);
   for (std::size_t motion = 0; motion < count; ++motion) {
     if (!lattice.may_follow(label.mode, motion)) continue;
     const std::int32_t to = lattice.target(label.node, motion);
@@ -459,11 +440,7 @@ void LatticeSearch::expand(std::int32_t index) {
     const bool switching = label.mode >= 0 && way.first >= 0 && way.first != label.mode;
     const Slot pause = switching ? lattice.switch_slots() : 0;
     const Slot when = earliest(label.leg, label.node, motion, way, label.t + pause);
-    if (when >= kEver) continue;
-    if (when > label.end) {
-      if (when - pause > label.t && when <= over) later(index, when - pause);
-      continue;
-    }
+    if (when >= kEver || when > label.end) continue;
     Label child{};
     child.parent = index;
     child.motion = static_cast<std::int32_t>(motion);
@@ -475,24 +452,16 @@ void LatticeSearch::expand(std::int32_t index) {
   }
 }
 
-// The same motion again, to arrive at a slot no sooner than this; where its start cannot be waited
-// in so long, that is reached later too.
-void LatticeSearch::later(std::int32_t index, Slot arrival) {
-  const Label label = labels_[static_cast<std::size_t>(index)];
-  if (label.parent == kNone) return;
-  const Label parent = labels_[static_cast<std::size_t>(label.parent)];
-  Lattice& lattice = lattices_[static_cast<std::size_t>(parent.leg)];
-  const Lattice::Way way = lattice.way(parent.node, static_cast<std::size_t>(label.motion));
+// The same motion again, to arrive when this label's stand must be over. Every way to a place is
+// asked for every window in which it may be, also where it comes to the first one too late.
+void LatticeSearch::later(const Label& label) {
+  if (label.parent == kNone || label.end > last_change_) return;
+  const Label& parent = labels_[static_cast<std::size_t>(label.parent)];
+  const Lattice::Way way =
+      lattice(parent.leg).way(parent.node, static_cast<std::size_t>(label.motion));
   const Slot when = earliest(parent.leg, parent.node, static_cast<std::size_t>(label.motion), way,
-                             label.depart + arrival - label.t);
-  if (when >= kEver) return;
-  if (when > parent.end) {
-    const bool switching = parent.mode >= 0 && way.first >= 0 && way.first != parent.mode;
-    const Slot pause = switching ? lattice.switch_slots() : 0;
-    // From `over` on it has been asked for already.
-    if (when - pause > parent.t && when - pause < parent.over) later(label.parent, when - pause);
-    return;
-  }
+                             label.depart + label.end + 1 - label.t);
+  if (when >= kEver || when > parent.end) return;  // later labels of the parent see to it
   Label child = label;
   depart(child, when);
   push(child);

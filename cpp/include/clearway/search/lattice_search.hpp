@@ -104,7 +104,7 @@ class LatticeSearch {
     double g, f;
     std::int32_t parent, node, motion;
     Slot t, depart;
-    Slot end, over;  // it must not stand there from the one to the other
+    Slot end;  // last slot in which it can set out from there
     std::int16_t leg, mode;
     std::int32_t num_hits;
     std::int32_t next;  // of the same state
@@ -130,7 +130,6 @@ class LatticeSearch {
   void compile(const std::vector<Rule>& rules);
   Slot earliest(int leg, std::int32_t node, std::size_t motion, const Lattice::Way& way, Slot from);
   Slot stands_until(int leg, std::int32_t node, Slot from);
-  Slot blocked_until(int leg, std::int32_t node, Slot slot);
   bool covers(const Rule& rule, int leg, std::int32_t node, const Lattice::Way& way,
               Ticks since) const;
   Ticks last_overlap(int other, int leg, std::int32_t node, std::size_t motion,
@@ -140,7 +139,7 @@ class LatticeSearch {
   void push(Label label);
   bool dominated(const Label& label, std::int32_t head) const;
   void expand(std::int32_t index);
-  void later(std::int32_t index, Slot arrival);
+  void later(const Label& label);
   void depart(Label& label, Slot when);
   std::size_t state(const Label& label) const;
   void meet(Label& label, Encounters& encounters);
@@ -169,6 +168,7 @@ class LatticeSearch {
   std::vector<Rule> avoid_, points_;
   std::vector<std::pair<Slot, Slot>> spans_;
   Slot least_rest_ = 0, last_rest_ = kEver;
+  Slot last_change_ = 0;  // from here on the rules say the same for ever
   double estimate_at_start_ = 0.0;
   std::vector<double> tail_;
   std::vector<Label> labels_;
