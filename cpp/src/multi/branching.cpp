@@ -11,7 +11,9 @@ constexpr Ticks kBefore = 100;    // a stretch of a long drive begins so long be
 constexpr Ticks kLongest = 3000;  // and is at most so long
 constexpr Ticks kLook = 20;       // between looks at two robots that meet
 constexpr Ticks kLongestMeeting = 10'000;
-constexpr int kMoments = 9;  // of a meeting that are tried
+constexpr int kMoments = 9;       // of a meeting that are tried
+constexpr double kCloser = 1e-6;  // than required, in all doubt (m)
+constexpr double kFinest = 1e-6;  // of looking for a point (m)
 
 // What a robot does at some moment.
 struct Act {
@@ -21,8 +23,10 @@ struct Act {
   Slot from, to;
 };
 
-// The point that lies deepest in both of two bodies, or nearest to both, and how far outside.
-double deepest(const Body& a, const Frame& fa, const Body& b, const Frame& fb, Point* where) {
+// The point that lies deepest in both of two bodies, or nearest to both, and how far outside; with
+// more care until it is within `near`.
+double deepest(const Body& a, const Frame& fa, const Body& b, const Frame& fb, double near,
+               Point* where) {
   const auto outside = [&](Point p) {
     const Circle c{p.x, p.y, 0.0};
     return std::max(gap(a, fa, c), gap(b, fb, c));
@@ -31,7 +35,8 @@ double deepest(const Body& a, const Frame& fa, const Body& b, const Frame& fb, P
   const Point cb = fb.to_world({b.bound().x, b.bound().y});
   Point best{0.5 * (ca.x + cb.x), 0.5 * (ca.y + cb.y)};
   double least = outside(best);
-  for (double step = 0.5 * std::max(a.bound().r, b.bound().r); step > 0.005;) {
+  for (double step = 0.5 * std::max(a.bound().r, b.bound().r);
+       step > (least > near ? kFinest : 0.005);) {
     bool better = false;
     for (int k = 0; k < 8; ++k) {
       const double angle = kTau / 8.0 * k;
@@ -124,7 +129,7 @@ bool part_at_point(const Routing& r, const Meeting& met, const Route& route_a, c
   const auto ia = static_cast<std::size_t>(met.a), ib = static_cast<std::size_t>(met.b);
   const Track &a = *route_a.track, &b = *route_b.track;
   const double required = r.team->required(ia)[ib];
-  const double near = 0.5 * required - 1e-6;
+  const double near = 0.5 * required - kCloser;
   const auto first = static_cast<Ticks>(std::ceil(met.tick));
   const auto apart = [&](Ticks t) {
     const Track::Sight x = a.at(t), y = b.at(t);
@@ -137,7 +142,7 @@ bool part_at_point(const Routing& r, const Meeting& met, const Route& route_a, c
     const Ticks t = first + (last - first) * i / (kMoments - 1);
     const Track::Sight x = a.at(t), y = b.at(t);
     Point p;
-    if (deepest(*x.body, x.frame, *y.body, y.frame, &p) > near) continue;
+    if (deepest(*x.body, x.frame, *y.body, y.frame, near, &p) > near) continue;
     const auto since = [&](const Track& track) {
       Ticks back = 0;
       while (back < kLongestMeeting && t - back > 0) {
@@ -282,6 +287,11 @@ Branching branch(const Routing& r, const Meeting& met, const Route& route_a, con
   (a_stands ? rule_a : rule_b) = stand_off(standing, in + delay, out - 1);
   (a_stands ? rule_b : rule_a) = set_out_later(driving, way, begin, begin + delay * slot);
   return sides;
+}
+
+double point_gap(const Routing& r, int robot, int other, double gap) {
+  return r.team->required(static_cast<std::size_t>(robot))[static_cast<std::size_t>(other)] - gap -
+         2.0 * kCloser;
 }
 
 Rule opposite(Rule rule) {

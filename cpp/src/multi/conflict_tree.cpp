@@ -65,6 +65,9 @@ void ConflictTree::find_rules(std::int32_t i, int robot, std::vector<Rule>& rule
     if (!each.has_rule) continue;
     if (each.bound_to >= 0) {
       rules.push_back(robot == each.bound_to ? opposite(each.rule) : each.rule);
+      if (each.rule.kind == Rule::Kind::kPoint && robot != each.bound_to && robot != each.robot) {
+        rules.back().gap = point_gap(routing_, robot, each.bound_to, each.rule.gap);
+      }
     } else if (each.robot == robot) {
       rules.push_back(each.rule);
     }
@@ -201,6 +204,11 @@ bool ConflictTree::split(std::int32_t i, Budget& budget) {
         if (child->conflicts.size() < conflicts) {
           child->has_rule = false;
           child->bound_to = -1;
+          // What is proven under the rule is not without it.
+          auto route = std::make_shared<Route>(*child->route);
+          route->bound = routes_[static_cast<std::size_t>(robots[side])]->bound;
+          child->route = std::move(route);
+          child->bound = node(i).bound;
           offer(std::move(*child));
           return true;
         }

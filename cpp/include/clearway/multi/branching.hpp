@@ -38,6 +38,9 @@ struct Branching {
 
 Branching branch(const Routing& routing, const Meeting& meeting, const Route& a, const Route& b);
 
+// A robot that comes so near to a point meets another one that is within `gap` of it.
+double point_gap(const Routing& routing, int robot, int other, double gap);
+
 // What a robot that is bound does: the opposite of the rule for the others.
 Rule opposite(Rule rule);
 
