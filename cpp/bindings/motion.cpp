@@ -141,7 +141,8 @@ void bind_motion(nb::module_& m) {
         return ways;
       },
       "table"_a, "objective"_a, "start"_a, "goal"_a, "count"_a,
-      "Steps of the best obstacle-free connections, at most `count`; mode -1 stands between modes.");
+      "Steps of the best obstacle-free connections, at most `count`; mode -1 stands between "
+      "modes.");
 }
 
 }  // namespace clearway::bindings

@@ -173,6 +173,7 @@ class Lattice:
             return sum(ticks for _, ticks, _ in steps)
         moving = [step for step in steps if step[2] >= 0]
         total = SWITCH * sum(a[2] != b[2] for a, b in itertools.pairwise(moving))
+        total += WAITING / 1000.0 * sum(ticks for _, ticks, mode in steps if mode < 0)
         for (a, b, c), _, _ in moving:
             length = math.hypot(a, b) or abs(c) * self.arm
             total += length * (TURNING if c else 1.0)
