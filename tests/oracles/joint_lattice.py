@@ -37,18 +37,19 @@ class Shape:
         self.radius = footprint.radius
         self.reach = footprint.circumradius
         parts = [shapely.Polygon(part) for part in footprint.parts]
-        self.outline = shapely.unary_union(parts) if parts else None
+        self.rings = {}
+        for shrunk in (0.0, TOLERANCE) if parts else ():
+            outline = shapely.union_all(parts).buffer(-shrunk, join_style="mitre")
+            self.rings[shrunk] = np.asarray(outline.exterior.coords)
 
     def at(self, poses: np.ndarray, shrunk: float = 0.0) -> np.ndarray:
         """Return geometries at poses of shape (n, 3), all their edges moved inwards (m)."""
-        if self.outline is None:
+        if not self.rings:
             return shapely.points(poses[:, :2])
-        ring = self.outline.buffer(-shrunk, join_style="mitre").exterior.coords
-        corners = np.asarray(ring)
+        x, y = self.rings[shrunk].T
         c, s = np.cos(poses[:, 2, None]), np.sin(poses[:, 2, None])
-        x = poses[:, 0, None] + c * corners[:, 0] - s * corners[:, 1]
-        y = poses[:, 1, None] + s * corners[:, 0] + c * corners[:, 1]
-        return shapely.polygons(np.stack([x, y], axis=-1))
+        corners = [poses[:, 0, None] + c * x - s * y, poses[:, 1, None] + s * x + c * y]
+        return shapely.polygons(np.stack(corners, axis=-1))
 
 
 def meets(a: Shape, at: np.ndarray, other, more: float, required: float) -> bool:
@@ -56,23 +57,30 @@ def meets(a: Shape, at: np.ndarray, other, more: float, required: float) -> bool
     gaps = shapely.distance(a.at(at), other) - a.radius - more
     if gaps.min() >= required + TOLERANCE:
         return False
-    if a.outline is not None:
+    if a.rings:
         gaps = shapely.distance(a.at(at, TOLERANCE), other) - more - TOLERANCE
     if gaps.min() <= -TOLERANCE:
         return True
     raise Unclear(f"a gap of about {gaps.min():.3f} m")
 
 
-def moved(pose: Pose, twist, share: float = 1.0) -> Pose:
-    """Return the pose after a share of a constant twist."""
-    a, b, c = (share * v for v in twist)
-    if abs(c) < 1e-12:
-        dx, dy = a, b
+def moved(pose: Pose, twist, shares: np.ndarray) -> np.ndarray:
+    """Return the poses, of shape (n, 3), after shares of a constant twist."""
+    a, b, c = twist
+    turn = c * shares
+    if c == 0.0:
+        dx, dy = a * shares, b * shares
     else:
-        dx = (a * math.sin(c) - b * (1.0 - math.cos(c))) / c
-        dy = (a * (1.0 - math.cos(c)) + b * math.sin(c)) / c
+        dx = (a * np.sin(turn) - b * (1.0 - np.cos(turn))) / c
+        dy = (a * (1.0 - np.cos(turn)) + b * np.sin(turn)) / c
     cos, sin = math.cos(pose.theta), math.sin(pose.theta)
-    return Pose(pose.x + cos * dx - sin * dy, pose.y + sin * dx + cos * dy, pose.theta + c)
+    x, y = pose.x + cos * dx - sin * dy, pose.y + sin * dx + cos * dy
+    return np.stack([x, y, pose.theta + turn], axis=-1)
+
+
+def end_of(pose: Pose, twist) -> Pose:
+    """Return the pose after a twist."""
+    return Pose(*moved(pose, twist, np.ones(1))[0].tolist())
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,23 +157,21 @@ class Lattice:
 
     def sampled(self, steps, pose: Pose, stand: int = 0) -> np.ndarray:
         """Return poses along steps of (twist, ticks, mode), then standing, every `TICK_STEP`."""
-        begins, at, begin = [], pose, 0
+        times = np.arange(0, sum(ticks for _, ticks, _ in steps) + stand + 1, TICK_STEP)
+        poses, begin = np.empty((len(times), 3)), 0
         for twist, ticks, _ in steps:
-            begins.append((begin, begin + ticks, at, twist))
-            at, begin = moved(at, twist), begin + ticks
-        samples = []
-        for t in range(0, begin + stand + 1, TICK_STEP):
-            now = at
-            for first, end, start, twist in begins:
-                if first <= t < end:
-                    now = moved(start, twist, (t - first) / (end - first))
-                    break
-            samples.append(now)
-        return np.array([[*now] for now in samples])
+            during = (times >= begin) & (times < begin + ticks)
+            poses[during] = moved(pose, twist, (times[during] - begin) / max(1, ticks))
+            pose, begin = end_of(pose, twist), begin + ticks
+        poses[times >= begin] = [*pose]
+        return poses
 
     def is_clear(self, steps, pose: Pose) -> bool:
         """Whether a body on its way keeps off all walls."""
-        return not meets(self.shape, self.sampled(steps, pose), self.walls, 0.0, self.required)
+        poses = self.sampled(steps, pose)
+        apart = shapely.distance(shapely.points(poses[:, :2]), self.walls)
+        near = poses[apart < self.shape.reach + self.required + TOLERANCE]
+        return not len(near) or not meets(self.shape, near, self.walls, 0.0, self.required)
 
     def _cost(self, steps) -> float:
         """Return what steps cost; in time their ticks, else eq. 21 with changes of mode inside."""
@@ -184,11 +190,9 @@ class Lattice:
         for mode, twist, ticks in self.primitives:
             steps = [(twist, ticks, mode)]
             if self.is_clear(steps, pose):
-                to = self._node(leg, moved(pose, twist))
+                to = self._node(leg, end_of(pose, twist))
                 cost = self._cost(steps)
-                yield Motion(
-                    ticks // self.slot, mode, mode, cost, to, self.sampled(steps, pose)
-                )
+                yield Motion(ticks // self.slot, mode, mode, cost, to, self.sampled(steps, pose))
 
     def _shots(self, at: tuple[int, int]):
         leg, pose = at[0], self.poses[at]
@@ -311,9 +315,7 @@ class JointSearch:
         near = apart < a.shape.reach + b.shape.reach + required + TOLERANCE
         if not near.any():
             return False
-        return meets(
-            a.shape, at[near], b.shape.at(there[near]), b.shape.radius, required
-        )
+        return meets(a.shape, at[near], b.shape.at(there[near]), b.shape.radius, required)
 
     def _during(self, i: int, stage: Stage, begin: int, end: float) -> np.ndarray:
         """Return a robot's poses from a slot to another; one row where it stands."""
@@ -334,7 +336,14 @@ class JointSearch:
         end = math.inf if new.rests else new.end
         end = min(end, math.inf if other.rests else other.end)
         doing = [
-            (k, s.at, id(s.motion), s.stood, begin - (s.begin - s.stood) if s.motion else 0, s.rests)
+            (
+                k,
+                s.at,
+                id(s.motion),
+                s.stood,
+                begin - (s.begin - s.stood) if s.motion else 0,
+                s.rests,
+            )
             for k, s in ((i, new), (j, other))
         ]
         key = (*doing, end - begin)

@@ -62,7 +62,7 @@ def _apart(types: list[RobotType], poses: list[Pose]) -> bool:
 
 
 def _draw(rng: random.Random) -> Problem:
-    columns, rows = rng.randint(3, 6), rng.randint(1, 3)
+    columns, rows = rng.randint(3, 6), rng.choice((1, 2, 2, 3))
     places = [(i, j) for i in range(columns) for j in range(rows)]
     rng.shuffle(places)
 
@@ -73,16 +73,20 @@ def _draw(rng: random.Random) -> Problem:
     for _ in range(rng.randint(0, 2) if rows > 1 else 0):
         x, y = at(places.pop())
         blocks.append(block(x - BLOCK, y - BLOCK, x + BLOCK, y + BLOCK))
+    num_robots = 3 if rng.random() < 0.2 else 2
+    starts = [rng.choice(places) for _ in range(num_robots)]
+    # Often each is to end where the next one starts.
+    ends = [*starts[1:], starts[0]] if rng.random() < 0.6 else rng.choices(places, k=num_robots)
     members = []
-    for _ in range(3 if rng.random() < 0.2 else 2):
+    for start, end in zip(starts, ends, strict=True):
         robot_type = rng.choice(TYPES)
         headings = (0.0, math.pi) if robot_type in TURNING else (0.0,)
         if robot_type in TURNING and rows > 1:
             headings = (*headings, math.pi / 2.0, -math.pi / 2.0)
+        goals = [end] if rng.random() < 0.75 else [rng.choice(places), end]
         visits = [
-            to(*at(rng.choice(places)), rng.choice(headings), rng.choice((0.0, 0.0, 0.8, 2.0)))
-            for _ in range(2 if rng.random() < 0.25 else 1)
+            to(*at(goal), rng.choice(headings), rng.choice((0.0, 0.0, 0.8, 2.0))) for goal in goals
         ]
-        members.append((robot_type, (*at(rng.choice(places)), rng.choice(headings)), *visits))
+        members.append((robot_type, (*at(start), rng.choice(headings)), *visits))
     width, height = (STEP * (n - 1) + 2.0 * BORDER for n in (columns, rows))
     return team(room(width, height, *blocks), *members)
