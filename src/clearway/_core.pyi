@@ -386,6 +386,11 @@ def ramp(length: float, enter: float, leave: float, top: float, acceleration: fl
 def connect(table: MotionTable, objective: Objective, start: Pose, goal: Pose, mode: int = -1) -> list[Step]:
     """Steps of the best obstacle-free connection between two poses."""
 
+def connections(table: MotionTable, objective: Objective, start: Pose, goal: Pose, count: int) -> list[list[Step]]:
+    """
+    Steps of the best obstacle-free connections, at most `count`; mode -1 stands between modes.
+    """
+
 class TimedPiece:
     """A stretch of a trajectory."""
 

@@ -108,7 +108,7 @@ void ConflictSearch::plan_greedily(Budget& budget) {
 // Plan a group as well as asked for, among the routes of all others.
 ConflictTree::Outcome ConflictSearch::solve(Group& group, Budget& budget) {
   Guidance guidance;
-  guidance.heuristic = Heuristic::kLookBack;
+  guidance.heuristic = params_.heuristic;
   guidance.focus = params_.mode == ConflictParams::Mode::kBounded ? params_.factor : 1.0;
   ConflictTree tree(routing_, group.members, routes_, guidance, guidance.focus, even(),
                     params_.most_nodes);
@@ -198,7 +198,7 @@ ConflictResult ConflictSearch::operator()(Budget& budget) {
   if (groups_.empty()) {
     keep(routes_, 0.0);
     result_.proven = proves;
-  } else if (prepare(proves ? Heuristic::kLookBack : params_.heuristic)) {
+  } else if (prepare(params_.heuristic)) {
     if (proves) {
       // A first plan, which is the answer where nothing better is proven in time.
       Budget first = budget;

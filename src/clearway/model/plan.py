@@ -28,7 +28,7 @@ class Plan:
     ``conflict_free_until`` is in seconds, ``None`` for ever. Robots that are not planned
     have no trajectory and stand at their start. ``concerned`` names the robots that
     ``reason`` is about. ``discrete_bound`` holds what is proven on the finite graph that was
-    searched: ``bound`` and ``factor`` of the figure named ``of``, and the ``graph``'s name.
+    searched: ``value`` and ``factor`` of the figure named ``of``, and the ``graph``'s name.
     """
 
     status: Status

@@ -41,8 +41,9 @@ class ConflictParams:
     factor
         Of ``bounded``: no plan on the graph costs less than the answer over this.
     heuristic
-        What is left from a state: ``look_back`` searches back from each goal over the lattice;
-        ``bound`` is the way round obstacles of the disc in the body with the turn that is left;
+        What is left from a state: ``look_back`` searches back from each goal over the lattice
+        (``auto`` in the modes that prove); ``bound`` (``auto`` in the adaptive one) is the way
+        round obstacles of the disc in the body, with the turn that is left;
         ``paper`` is eq. 22, which may say too much and therefore proves nothing.
     xi
         Of ``adaptive``: factor on the heuristic (eq. 23).
@@ -56,7 +57,7 @@ class ConflictParams:
 
     mode: Literal["optimal", "bounded", "adaptive"] = "adaptive"
     factor: float = 1.05
-    heuristic: Literal["look_back", "bound", "paper"] = "bound"
+    heuristic: Literal["auto", "look_back", "bound", "paper"] = "auto"
     xi: float = 1.2
     fixed: bool = False
     slot: int = 100
@@ -69,8 +70,8 @@ class ConflictParams:
                 raise ValueError(f"{name} must be {least:g} or above and finite, got {value}")
         if self.mode not in MODES:
             raise ValueError(f"mode must be one of {', '.join(MODES)}, got {self.mode!r}")
-        if self.heuristic not in HEURISTICS:
-            known = ", ".join(HEURISTICS)
+        if self.heuristic not in ("auto", *HEURISTICS):
+            known = ", ".join(("auto", *HEURISTICS))
             raise ValueError(f"heuristic must be one of {known}, got {self.heuristic!r}")
         if self.heuristic == "paper" and self.mode != "adaptive":
             raise ValueError("heuristic paper may say too much: use mode adaptive with it")
@@ -79,7 +80,10 @@ class ConflictParams:
         """Return the core's parameters."""
         params = _core.ConflictParams()
         params.mode = MODES[self.mode]
-        params.heuristic = HEURISTICS[self.heuristic]
+        chosen = self.heuristic
+        if chosen == "auto":
+            chosen = "bound" if self.mode == "adaptive" else "look_back"
+        params.heuristic = HEURISTICS[chosen]
         params.factor, params.xi, params.adaptive = self.factor, self.xi, not self.fixed
         lattice, objective = params.lattice, params.objective
         lattice.slot = self.slot
@@ -209,7 +213,7 @@ class ConflictBasedSearch:
         unit = 1.0 if self.params.paper_cost else 1000.0
         bound = math.floor(1e6 * answer.bound / unit) / 1e6
         proven: dict[str, str | float] = {
-            "bound": bound,
+            "value": bound,
             "of": "cost" if self.params.paper_cost else "sum_of_costs",
             "graph": self.graph(share),
         }

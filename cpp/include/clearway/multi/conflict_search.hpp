@@ -13,9 +13,9 @@ struct ConflictParams {
   Mode mode = Mode::kGreedy;
   Objective objective;
   LatticeParams lattice;
-  Heuristic heuristic = Heuristic::kBound;  // of the greedy search; the others look back
-  double factor = 1.05;                     // bounded: proven on the lattices
-  double xi = 2.0;                          // greedy: on the estimate; see Guidance
+  Heuristic heuristic = Heuristic::kBound;
+  double factor = 1.05;  // bounded: proven on the lattices
+  double xi = 2.0;       // greedy: on the estimate; see Guidance
   bool adaptive = true;
   double meeting = 5.0;                // likewise
   int attempts = 6;                    // greedier ones, where a small tree holds no plan
