@@ -321,6 +321,13 @@ def run_generate(arguments: argparse.Namespace) -> int:
     return DONE
 
 
+def run_study(arguments: argparse.Namespace) -> int:
+    """Run a paper's experiment."""
+    from clearway.cli.study_command import run_study
+
+    return run_study(arguments)
+
+
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "bench": run_bench,
     "check": run_check,
@@ -328,5 +335,6 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "generate": run_generate,
     "schema": run_schema,
     "solve": run_solve,
+    "study": run_study,
     "validate": run_validate,
 }

@@ -114,6 +114,23 @@ def _parser() -> argparse.ArgumentParser:
     bench.add_argument("--robots", type=_count, default=16)
     bench.add_argument("--tasks", type=_count, default=48)
     bench.add_argument("--instances", type=_count, default=30, help="seeds 0 to N - 1")
+    study = commands.add_parser(
+        "study", parents=[talk, search], help="a paper's experiment, our figures beside its own"
+    )
+    study.add_argument("name", metavar="NAME", help="such as hierarchical-table2")
+    study.add_argument("--out", required=True, metavar="DIR/", help="folder for rows and report")
+    study.add_argument(
+        "--quick", action="store_true", help="a small version: under two minutes on two cores"
+    )
+    study.add_argument(
+        "--instances", type=_count, metavar="K", help="seeds S to S + K - 1 of each point"
+    )
+    study.add_argument(
+        "--jobs", type=_count, metavar="N", help="processes (default: one per processor)"
+    )
+    study.add_argument(
+        "--workers", metavar="ADDRESS", help="of a Dask cluster, such as tcp://10.0.0.1:8786"
+    )
     generate = commands.add_parser("generate", parents=[talk], help="seeded instances for planners")
     generate.add_argument("kind", metavar="KIND", help="open, shelves, rooms, corridors or yards")
     generate.add_argument("--out", required=True, metavar="DIR/", help="folder for the scenarios")

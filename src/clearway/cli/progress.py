@@ -12,6 +12,8 @@ class ProgressLine:
         self._begin = time.monotonic()
         self._on = not quiet and sys.stderr.isatty()
         self._width = 0
+        self._quiet = quiet
+        self._at_first: int | None = None
 
     def __enter__(self) -> "ProgressLine":
         """Start the clock."""
@@ -24,8 +26,7 @@ class ProgressLine:
         trace: TracebackType | None,
     ) -> None:
         """Clear the line."""
-        if self._width:
-            print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)
+        self._clear()
 
     def planning(
         self,
@@ -47,6 +48,28 @@ class ProgressLine:
         bar = "#" * filled + "." * (24 - filled)
         self.say(f"planning [{bar}] {planned}/{total} robots, {expansions:,} expansions")
 
+    def rows(self, done: int, total: int) -> None:
+        """Show how many rows are done, and the time that the others take at this pace.
+
+        The first call tells what was there before.
+        """
+        if self._at_first is None:
+            self._at_first = done
+        filled = round(24 * done / max(total, 1))
+        told = f"[{'#' * filled}{'.' * (24 - filled)}] {done}/{total} rows"
+        fresh = done - self._at_first
+        if fresh:
+            seconds = time.monotonic() - self._begin
+            told += f", {_clock(seconds * (total - done) / fresh)} left"
+        self.say(told)
+
+    def note(self, text: str) -> None:
+        """Leave a line above, whatever stderr is."""
+        if self._quiet:
+            return
+        self._clear()
+        print(f"clearway: {text}", file=sys.stderr, flush=True)
+
     def say(self, text: str) -> None:
         """Show any text with the seconds so far."""
         seconds = time.monotonic() - self._begin
@@ -55,3 +78,21 @@ class ProgressLine:
         line = f"{text}, {seconds:.0f} s"
         print("\r" + line.ljust(self._width), end="", file=sys.stderr, flush=True)
         self._width = max(self._width, len(line))
+
+    def _clear(self) -> None:
+        if self._width:
+            print("\r" + " " * self._width + "\r", end="", file=sys.stderr, flush=True)
+            self._width = 0
+
+
+def _clock(seconds: float) -> str:
+    """Return a time as hours, minutes and seconds, without those that are none."""
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return (
+        f"{hours} h {minutes} min"
+        if hours
+        else f"{minutes} min {rest} s"
+        if minutes
+        else f"{rest} s"
+    )

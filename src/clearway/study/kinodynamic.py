@@ -3,12 +3,9 @@
 import ctypes
 import gc
 import json
-import multiprocessing
 import resource
-import signal
 import time
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -24,6 +21,7 @@ from clearway.model import Scenario
 from clearway.model.site import Border
 from clearway.protocols import Budget
 from clearway.study.bench import BenchTable
+from clearway.study.workers import processes
 from clearway.systems.solve import IllegalScenario, Planned, make_plan
 from clearway.validate import Violation, validate_plan
 
@@ -172,20 +170,8 @@ def _rows(work: Callable[[Path], Row], files: Sequence[Path], jobs: int) -> Iter
     if jobs == 1 or len(files) == 1:
         yield from map(work, files)
         return
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(jobs, context, initializer=_ignore_interrupts) as pool:
-        try:
-            yield from pool.map(work, files)
-        except BaseException:
-            for process in list(pool._processes.values()):
-                process.kill()
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-
-
-def _ignore_interrupts() -> None:
-    """Leave Ctrl-C to the process that hands out the work."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    with processes(jobs) as pool:
+        yield from pool.map(work, files)
 
 
 def _user_seconds() -> float:

@@ -1,0 +1,126 @@
+"""Charts drawn with matplotlib, on light and on dark ground."""
+
+import io
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from clearway.plot.palette import line_colour
+from clearway.study.findings import Chart, Panel
+
+PANEL = (5.6, 3.7)  # inches
+ONE_PANEL = (8.0, 4.4)
+DOTS = 130
+MARKS = "osD^vPX"
+
+
+@dataclass(frozen=True)
+class Ground:
+    """Colours of page, letters and lines."""
+
+    page: str
+    ink: str
+    faint: str
+    is_dark: bool
+
+
+LIGHT = Ground("#ffffff", "#161b22", "#dde1e7", False)
+DARK = Ground("#171c22", "#e7eaee", "#333c46", True)
+
+
+def draw(chart: Chart, ground: Ground = LIGHT) -> bytes:
+    """Return a chart as PNG; the same chart gives the same bytes."""
+    columns = min(chart.columns, len(chart.panels))
+    rows = math.ceil(len(chart.panels) / columns)
+    width, height = ONE_PANEL if len(chart.panels) == 1 else PANEL
+    figure = Figure(
+        figsize=(width * columns, height * rows + 0.7),
+        dpi=DOTS,
+        layout="constrained",
+        facecolor=ground.page,
+    )
+    named = {}
+    for number, panel in enumerate(chart.panels, start=1):
+        axes = figure.add_subplot(rows, columns, number)
+        _dress(axes, panel, ground)
+        _draw(axes, panel, ground)
+        handles, labels = axes.get_legend_handles_labels()
+        named.update(dict(zip(labels, handles, strict=True)))
+    figure.suptitle(_plain(chart.title), color=ground.ink, fontsize=13)
+    if named:
+        figure.legend(
+            named.values(),
+            named,
+            loc="outside lower center",
+            ncols=min(len(named), 3 + 2 * columns),
+            frameon=False,
+            labelcolor=ground.ink,
+            fontsize=9.5,
+        )
+    content = io.BytesIO()
+    figure.savefig(content, format="png", metadata={"Software": None})
+    return content.getvalue()
+
+
+def _dress(axes: Axes, panel: Panel, ground: Ground) -> None:
+    axes.set_facecolor(ground.page)
+    axes.set_xlabel(_plain(panel.x_label), color=ground.ink)
+    axes.set_ylabel(_plain(panel.y_label), color=ground.ink)
+    axes.set_title(_plain(panel.title), color=ground.ink, fontsize=11, loc="left")
+    axes.tick_params(colors=ground.ink)
+    axes.grid(axis="y", color=ground.faint, linewidth=0.8)
+    axes.set_axisbelow(True)
+    for side, spine in axes.spines.items():
+        spine.set_visible(side in ("left", "bottom"))
+        spine.set_color(ground.ink)
+    if panel.log:
+        axes.set_yscale("log")
+    if panel.ticks:
+        places, names = zip(*panel.ticks, strict=True)
+        axes.set_xticks(places, [_plain(name) for name in names])
+
+
+def _draw(axes: Axes, panel: Panel, ground: Ground) -> None:
+    for series in panel.series:
+        colour = line_colour(series.colour, ground.is_dark)
+        x, y = np.array(series.x), _drawn(series.y)
+        low, high = _drawn(series.low), _drawn(series.high)
+        name = _plain(series.label)
+        if series.style == "paper":
+            axes.plot(x, y, "D", mfc="none", mec=ground.ink, mew=1.5, ms=7, label=name, zorder=5)
+        elif series.style == "points":
+            mark = MARKS[series.colour % len(MARKS)]
+            bars = np.abs([y - low, high - y]) if len(low) else None
+            axes.errorbar(
+                x, y, bars, fmt=mark, color=colour, capsize=3, ms=5.5, label=name, zorder=4
+            )
+        else:
+            mark = MARKS[series.colour % len(MARKS)] if len(x) <= 20 else ""
+            axes.plot(x, y, color=colour, marker=mark, ms=5, lw=1.7, label=name, zorder=3)
+            if len(low):
+                axes.fill_between(x, low, high, color=colour, alpha=0.18, linewidth=0, zorder=2)
+    for span in panel.spans:
+        axes.axvspan(span.begin, span.end, color=ground.ink, alpha=0.12, linewidth=0)
+        middle = 0.5 * (span.begin + span.end)
+        place = ("data", "axes fraction")
+        axes.annotate(
+            _plain(span.label), (middle, 0.98), xycoords=place, ha="center", va="top",
+            rotation=90, color=ground.ink, fontsize=8,
+        )  # fmt: skip
+    if panel.from_zero:
+        axes.set_ylim(bottom=0.0)
+
+
+def _drawn(values: tuple[float, ...]) -> NDArray[np.float64]:
+    """Return values with gaps where they are infinite."""
+    array = np.array(values, dtype=np.float64)
+    return np.where(np.isfinite(array), array, np.nan)
+
+
+def _plain(text: str) -> str:
+    """Return text in which no dollar begins a formula."""
+    return text.replace("$", r"\$")
