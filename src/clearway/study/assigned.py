@@ -10,11 +10,12 @@ from clearway.assign import build
 from clearway.protocols import Budget, objective
 from clearway.study.experiment import Cell, Row, Scale
 from clearway.study.methods import ASSIGNERS, PLANNER, words_of
+from clearway.study.statistics import Estimate, mean
 from clearway.systems import HierarchicalSettings, hierarchical, make_plan
 from clearway.validate import validate_plan
 from clearway.world.warehouse import random_warehouse
 
-TRIALS, QUICK_TRIALS = 20, 5
+TRIALS, QUICK_TRIALS = 20, 3
 
 PARTS = {**words_of(ASSIGNERS), "planner": PLANNER.words}
 SITE = (
@@ -112,6 +113,14 @@ def pairs(ours: Sequence[Row], theirs: Sequence[Row], name: str) -> tuple[list[f
         if (place := (row["robots"], row["tasks"], row["seed"])) in known
     ]
     return [a for a, _ in both], [b for _, b in both]
+
+
+def means(rows: Sequence[Row], name: str, over: str) -> list[tuple[float, Estimate]]:
+    """Return the mean of ``name`` for each value of ``over`` that rows have, with that value."""
+    return [
+        (float(place), mean([row[name] for row in rows if row[over] == place]))
+        for place in sorted({row[over] for row in rows})
+    ]
 
 
 def completeness(rows: Sequence[Row]) -> str:

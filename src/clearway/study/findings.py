@@ -1,7 +1,12 @@
 """What a study has to say: tables, charts, and the paper's claims beside ours."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
+
+from clearway.study.statistics import Estimate
+
+Style = Literal["line", "points", "paper"]
 
 
 @dataclass(frozen=True)
@@ -38,8 +43,27 @@ class Series:
     y: tuple[float, ...]
     low: tuple[float, ...] = ()
     high: tuple[float, ...] = ()
-    style: Literal["line", "points", "paper"] = "line"
+    style: Style = "line"
     colour: int = 0
+
+    @classmethod
+    def of(
+        cls,
+        label: str,
+        points: Sequence[tuple[float, Estimate]],
+        style: Style = "line",
+        colour: int = 0,
+    ) -> "Series":
+        """Return estimates with their intervals."""
+        return cls(
+            label,
+            tuple(x for x, _ in points),
+            tuple(each.value for _, each in points),
+            tuple(each.low for _, each in points),
+            tuple(each.high for _, each in points),
+            style,
+            colour,
+        )
 
 
 @dataclass(frozen=True)

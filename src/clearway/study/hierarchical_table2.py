@@ -141,14 +141,7 @@ def _cost_chart(rows: Sequence[Row]) -> Chart:
             if (robots, tasks, method) in PAPER
         ]
         series = (
-            Series(
-                "ours, mean and 95 % interval",
-                tuple(x for x, _ in costs),
-                tuple(each.value for _, each in costs),
-                tuple(each.low for _, each in costs),
-                tuple(each.high for _, each in costs),
-                style="points",
-            ),
+            Series.of("ours, mean and 95 % interval", costs, "points"),
             Series(
                 "paper, one run",
                 tuple(x for x, _ in printed),
@@ -178,17 +171,7 @@ def _saving_chart(rows: Sequence[Row]) -> Chart:
             ours, theirs = pairs(pick(rows, method=method), pick(rows, method=other), "total_cost")
             if ours:
                 points.append((i - 0.08 + 0.16 * colour, statistics.saving(ours, theirs)))
-        series.append(
-            Series(
-                name,
-                tuple(x for x, _ in points),
-                tuple(each.value for _, each in points),
-                tuple(each.low for _, each in points),
-                tuple(each.high for _, each in points),
-                style="points",
-                colour=colour,
-            )
-        )
+        series.append(Series.of(name, points, "points", colour))
     claimed = tuple(CLAIMED_COST.values())
     places = tuple(float(i) for i in range(len(claimed)))
     series.append(Series("claimed by the paper", places, claimed, style="paper"))
@@ -224,7 +207,7 @@ STUDY = Study(
     version=1,
     setting=(
         "Scenarios of 4 robots and 12 tasks, 4 and 16, 8 and 16; each assigner has 20 trials "
-        "(5 in the quick version) on each instance, one of which, drawn at random, is planned.",
+        "(3 in the quick version) on each instance, one of which, drawn at random, is planned.",
         *assigned.SITE,
     ),
     parts=assigned.PARTS,

@@ -95,6 +95,21 @@ def saving(ours: Sequence[float], theirs: Sequence[float]) -> Estimate:
     return mean([100.0 * (1.0 - a / b) for a, b in zip(ours, theirs, strict=True)])
 
 
+def unpaired(ours: Sequence[float], theirs: Sequence[float]) -> Estimate:
+    """Return the difference of two means of independent samples, with Welch's interval.
+
+    Raises
+    ------
+    ValueError
+        If one of the two has fewer than two values.
+    """
+    if min(len(ours), len(theirs)) < 2:
+        raise ValueError("each side needs two values or more")
+    interval = stats.ttest_ind(ours, theirs, equal_var=False).confidence_interval(LEVEL)
+    middle = math.fsum(ours) / len(ours) - math.fsum(theirs) / len(theirs)
+    return Estimate(middle, float(interval.low), float(interval.high), len(ours) + len(theirs))
+
+
 def share(successes: int, count: int) -> Estimate:
     """Return the share of successes (per cent) with the interval of Clopper and Pearson."""
     if not 0 <= successes <= count or count == 0:

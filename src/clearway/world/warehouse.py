@@ -65,7 +65,7 @@ def warehouse_site(bays: int = 0) -> Site:
     if not 0 <= bays <= len(poses):
         raise ValueError(f"the warehouse has 0 to {len(poses)} parking bays, not {bays}")
     zones = tuple(
-        Zone(f"bay-{i + 1}", "parking", _corners(_box(pose)), pose)
+        Zone(f"bay-{i + 1}", "parking", _corners(body_box(pose)), pose)
         for i, pose in enumerate(poses[:bays])
     )
     shelves = tuple(
@@ -102,9 +102,9 @@ def random_warehouse(
     """
     rng = random.Random(seed)
     site = warehouse_site(min(robots, len(_bay_poses())) if bays is None else bays)
-    occupied = [_box(zone.pose) for zone in site.zones if zone.pose is not None]
+    occupied = [body_box(zone.pose) for zone in site.zones if zone.pose is not None]
     places = _scatter(tasks, "tasks", lambda: _task_pose(rng), 0.3, [])
-    occupied += [_box(pose) for pose in places]
+    occupied += [body_box(pose) for pose in places]
     starts = _scatter(
         robots, "robots", lambda: _start_pose(rng, robots > MOST_IN_CROSS_AISLES), 0.5, occupied
     )
@@ -217,8 +217,8 @@ def _order(name: str, pose: Pose, service: float, robot: str | None = None) -> O
     return Order(Task(name, (Visit(name, pose, service),), robot))
 
 
-def _box(pose: Pose) -> Box:
-    """Box of a carrier whose heading is a whole number of quarter turns."""
+def body_box(pose: Pose) -> Box:
+    """Return the box of a carrier whose heading is a whole number of quarter turns."""
     along = abs(math.cos(pose.theta)) > 0.5
     length, width = (BODY_LENGTH, BODY_WIDTH) if along else (BODY_WIDTH, BODY_LENGTH)
     x, y = length / 2.0, width / 2.0
@@ -230,7 +230,8 @@ def _corners(box: Box) -> Polygon:
     return ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
 
 
-def _gap(a: Box, b: Box) -> float:
+def gap_between(a: Box, b: Box) -> float:
+    """Return the least distance of two boxes (m); 0 where they meet."""
     x = max(a[0] - b[2], b[0] - a[2], 0.0)
     y = max(a[1] - b[3], b[1] - a[3], 0.0)
     return math.hypot(x, y)
@@ -280,8 +281,8 @@ def _scatter(
         if len(poses) == count:
             return poses
         pose = draw()
-        if all(_gap(_box(pose), other) >= gap - 1e-9 for other in boxes):
-            boxes.append(_box(pose))
+        if all(gap_between(body_box(pose), other) >= gap - 1e-9 for other in boxes):
+            boxes.append(body_box(pose))
             poses.append(pose)
     if len(poses) == count:
         return poses
