@@ -4,13 +4,13 @@ import argparse
 import json
 import time
 from collections.abc import Callable
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from clearway.cli.main import BAD_INPUT, DONE, INTERRUPTED, NO_ANSWER, WRONG, interrupted
 from clearway.cli.progress import ProgressLine
 from clearway.cli.run_folder import write_plan_first, write_rest
+from clearway.formats.ready_made import scenario_folder
 from clearway.formats.scenario_file import read_scenario
 from clearway.model import Scenario
 from clearway.protocols import Budget
@@ -113,13 +113,6 @@ def run_solve(arguments: argparse.Namespace) -> int:
     """Assign and plan a scenario file."""
     source = Path(arguments.scenario)
     return _solve(arguments, source, read_scenario(source))
-
-
-def scenario_folder() -> Path:
-    """Return the folder of the scenarios that come with Clearway."""
-    installed = Path(str(resources.files("clearway"))) / "scenarios"
-    in_tree = Path(__file__).parents[3] / "scenarios"
-    return installed if installed.is_dir() else in_tree
 
 
 def run_demo(arguments: argparse.Namespace) -> int:

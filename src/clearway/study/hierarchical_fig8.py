@@ -85,7 +85,7 @@ def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
             "Paper, Sec. 4.3: more robots reduce the total cost of few tasks (8 tasks, 4 robots "
             "against 2, APSGA)",
             _told(fewer),
-            None if fewer is None else fewer.high < 0.0,
+            None if fewer is None or not fewer.excludes_zero else fewer.high < 0.0,
         ),
         Finding(
             "Paper, Sec. 4.3: 8 robots with 16 tasks cost about what 4 do, by congestion (APSGA)",

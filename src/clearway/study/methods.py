@@ -63,7 +63,7 @@ def _prioritised(weight: float) -> Planner:
 
 # Plans of the assignment studies; all of them come from this planner.
 PLANNER: Part[Planner] = Part(
-    "prioritised planning with rip-up that minimises the paper's cost, weight 1.1, at most 20 restarts",
+    "prioritised planning with rip-up for the least cost of the paper, weight 1.1, 20 restarts",
     lambda: _prioritised(1.1),
 )
 

@@ -12,11 +12,11 @@ from clearway.validate.displacement import displacement_of
 from clearway.validate.figures import judge_figures
 from clearway.validate.kinematics import judge_kinematics
 from clearway.validate.modes import judge_modes
-from clearway.validate.pairs import Mover, Timetable, judge_pairs
+from clearway.validate.pairs import Meeting, Mover, Timetable, judge_pairs
 from clearway.validate.paper_cost import judge_paper_cost
-from clearway.validate.separation import least_separation
+from clearway.validate.separation import gaps, least_separation
 from clearway.validate.statics import Surroundings
-from clearway.validate.steps import Steps, track_of
+from clearway.validate.steps import Floats, Steps, track_of
 from clearway.validate.violation import Violation
 from clearway.validate.visits import Schedule, judge_visits, loads_of, schedule_of
 
@@ -95,6 +95,29 @@ def separations(
         if least is not None:
             found.append((movers[i].robot.id, movers[j].robot.id, *least))
     return found
+
+
+def gaps_over_time(record: PlanRecord, times: Floats) -> dict[tuple[str, str], Floats]:
+    """Return the exact gap (m) between the bodies of each pair of robots at some moments.
+
+    Minus the depth where they overlap. After the end of the plan all robots stand.
+
+    Parameters
+    ----------
+    times
+        Shape ``(n,)``, s, from 0 on; each pair's gaps have the same shape.
+    """
+    steps, _ = _motions(record)
+    movers = _movers(record, steps)
+    end = min((float(each.t1[-1]) for each in steps.values()), default=0.0)
+    moments = np.minimum(times, end)
+    held = [mover.steps.over(moments, moments) for mover in movers]
+    return {
+        (movers[i].robot.id, movers[j].robot.id): gaps(
+            Meeting(movers[i], movers[j], held[i], held[j])
+        )
+        for i, j in combinations(range(len(movers)), 2)
+    }
 
 
 def _motions(record: PlanRecord) -> tuple[dict[str, Steps], Schedule]:

@@ -31,6 +31,14 @@ def least_separation(
     return (best, time) if best < within else None
 
 
+def gaps(meeting: Meeting) -> Floats:
+    """Return the exact gap (m) at the beginning of each step; minus the depth of an overlap."""
+    found = np.full(len(meeting.a), np.inf)
+    for chosen, a, b in meeting.sides():
+        found[chosen] = np.minimum(found[chosen], distance(a, b, 0.0))
+    return found
+
+
 def _nearest(meeting: Meeting, best: float, time: float) -> tuple[float, float]:
     """Return the least gap and its time, or those given where they are less."""
     circles = meeting.least_reference_gap
