@@ -89,6 +89,7 @@ def conduct(
         tick()
         for cell, row in rows_of(study.row, left, workers, tick):
             kept.add({KEY: cell.key, **cell.settings, "seed": cell.seed, **row})
+            tick()
         rows = [kept.rows[cell.key] for cell in cells]
     failed = tuple(row for row in rows if "failed" in row)
     whole = tuple(row for row in rows if "failed" not in row)

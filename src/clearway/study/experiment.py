@@ -3,10 +3,12 @@
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from clearway.protocols import Budget
-from clearway.study.findings import Summary
+
+if TYPE_CHECKING:  # workers need cells only, and statistics take a second to import
+    from clearway.study.findings import Summary
 
 Row = dict[str, Any]
 
@@ -87,4 +89,4 @@ class Study:
     parts: Mapping[str, str]
     cells: Callable[[Scale], Sequence[Cell]]
     row: Callable[[Cell], Row]
-    summarise: Callable[[Sequence[Row]], Summary]
+    summarise: "Callable[[Sequence[Row]], Summary]"

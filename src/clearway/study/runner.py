@@ -30,7 +30,7 @@ def rows_of(
     Parameters
     ----------
     tick
-        Called every half second, and after each row.
+        Called every half second at least.
     """
     left = {cell.key: cell for cell in cells}
     deaths: Counter[str] = Counter()

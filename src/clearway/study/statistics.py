@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
 
 LEVEL = 0.95
 
@@ -46,6 +45,8 @@ def mean(values: Sequence[float]) -> Estimate:
     ValueError
         If there are no values.
     """
+    from scipy import stats
+
     count = _count(values)
     middle = math.fsum(values) / count
     if count == 1:
@@ -61,6 +62,8 @@ def median(values: Sequence[float]) -> Estimate:
     These are the narrowest pair, equally far from both ends, between which the true median
     lies with at least 95 % (binomial); fewer than six values allow no such pair.
     """
+    from scipy import stats
+
     count = _count(values)
     ordered = sorted(values)
     middle = 0.5 * (ordered[(count - 1) // 2] + ordered[count // 2])
@@ -103,6 +106,8 @@ def unpaired(ours: Sequence[float], theirs: Sequence[float]) -> Estimate:
     ValueError
         If one of the two has fewer than two values.
     """
+    from scipy import stats
+
     if min(len(ours), len(theirs)) < 2:
         raise ValueError("each side needs two values or more")
     interval = stats.ttest_ind(ours, theirs, equal_var=False).confidence_interval(LEVEL)
@@ -112,6 +117,8 @@ def unpaired(ours: Sequence[float], theirs: Sequence[float]) -> Estimate:
 
 def share(successes: int, count: int) -> Estimate:
     """Return the share of successes (per cent) with the interval of Clopper and Pearson."""
+    from scipy import stats
+
     if not 0 <= successes <= count or count == 0:
         raise ValueError(f"a share needs 0 to n successes of n above 0, got {successes} of {count}")
     interval = stats.binomtest(successes, count).proportion_ci(LEVEL, method="exact")
