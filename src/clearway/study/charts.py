@@ -16,6 +16,8 @@ PANEL = (5.6, 3.7)  # inches
 ONE_PANEL = (8.0, 4.4)
 DOTS = 130
 MARKS = "osD^vPX"
+# A line of more points than this has no marks and no bars.
+MOST_MARKS = 20
 
 
 @dataclass(frozen=True)
@@ -85,24 +87,30 @@ def _dress(axes: Axes, panel: Panel, ground: Ground) -> None:
 
 
 def _draw(axes: Axes, panel: Panel, ground: Ground) -> None:
-    for series in panel.series:
+    shifts = _shifts(panel)
+    for series, shift in zip(panel.series, shifts, strict=True):
         colour = line_colour(series.colour, ground.is_dark)
-        x, y = np.array(series.x), _drawn(series.y)
-        low, high = _drawn(series.low), _drawn(series.high)
-        name = _plain(series.label)
+        x, y = np.array(series.x) + shift, _drawn(series.y)
+        bars = np.abs([y - _drawn(series.low), _drawn(series.high) - y]) if series.low else None
+        name, mark = _plain(series.label), MARKS[series.colour % len(MARKS)]
         if series.style == "paper":
             axes.plot(x, y, "D", mfc="none", mec=ground.ink, mew=1.5, ms=7, label=name, zorder=5)
-        elif series.style == "points":
-            mark = MARKS[series.colour % len(MARKS)]
-            bars = np.abs([y - low, high - y]) if len(low) else None
-            axes.errorbar(
-                x, y, bars, fmt=mark, color=colour, capsize=3, ms=5.5, label=name, zorder=4
-            )
+        elif len(x) > MOST_MARKS and series.style == "line":
+            axes.plot(x, y, color=colour, lw=1.7, label=name, zorder=3)
         else:
-            mark = MARKS[series.colour % len(MARKS)] if len(x) <= 20 else ""
-            axes.plot(x, y, color=colour, marker=mark, ms=5, lw=1.7, label=name, zorder=3)
-            if len(low):
-                axes.fill_between(x, low, high, color=colour, alpha=0.18, linewidth=0, zorder=2)
+            axes.errorbar(
+                x,
+                y,
+                bars,
+                fmt=mark if series.style == "points" else f"{mark}-",
+                color=colour,
+                lw=1.5,
+                elinewidth=1.1,
+                capsize=2.5,
+                ms=5,
+                label=name,
+                zorder=4,
+            )
     for span in panel.spans:
         axes.axvspan(span.begin, span.end, color=ground.ink, alpha=0.12, linewidth=0)
         middle = 0.5 * (span.begin + span.end)
@@ -113,6 +121,21 @@ def _draw(axes: Axes, panel: Panel, ground: Ground) -> None:
         )  # fmt: skip
     if panel.from_zero:
         axes.set_ylim(bottom=0.0)
+
+
+def _shifts(panel: Panel) -> list[float]:
+    """Return by how much each series is moved along x, so that intervals stand side by side."""
+    places = np.unique([x for series in panel.series for x in series.x])
+    beside = [bool(series.low) and len(series.x) <= MOST_MARKS for series in panel.series]
+    count = sum(beside)
+    if count < 2 or len(places) < 2:
+        return [0.0] * len(panel.series)
+    step = min(0.05, 0.5 / count) * float(np.diff(places).min())
+    order = np.cumsum(beside) - 1
+    return [
+        step * (float(number) - 0.5 * (count - 1)) if moved else 0.0
+        for number, moved in zip(order, beside, strict=True)
+    ]
 
 
 def _drawn(values: tuple[float, ...]) -> NDArray[np.float64]:

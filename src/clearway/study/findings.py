@@ -33,7 +33,7 @@ class Series:
     low, high
         Ends of the intervals; empty: none. As long as ``y`` otherwise.
     style
-        ``line`` with a band, ``points`` with bars, or ``paper``: the paper's own points.
+        ``line`` or ``points`` (both with bars), or ``paper``: the paper's own points.
     colour
         Number of the colour; equal numbers look alike in all panels.
     """

@@ -165,7 +165,7 @@ def _chart(rows: Sequence[Row], robots: Sequence[int]) -> Chart:
         Panel("robots", "cost / best proven bound, median", lines(_ratio), "Cost", ticks),
         Panel("robots", "farthest drive (m), mean", lines(_farthest), "Distance", ticks),
     )
-    note = "Bands are 95 % intervals; medians of fewer than six instances have none."
+    note = "Bars are 95 % intervals; medians of fewer than six instances have none."
     return Chart("corridor", "Crossing to the middle of the warehouse", panels, note, columns=2)
 
 

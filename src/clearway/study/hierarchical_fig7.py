@@ -80,7 +80,7 @@ def _chart(rows: Sequence[Row]) -> Chart:
         )
         for name in ("average_distance", "total_cost")
     )
-    note = "Means over instances; bands are 95 % intervals."
+    note = "Means over instances; bars are 95 % intervals."
     return Chart("tasks", "Four robots with more and more tasks", panels, note, columns=2)
 
 
@@ -96,7 +96,7 @@ def _saving_chart(rows: Sequence[Row]) -> Chart:
         ),
     )
     ticks = tuple((float(tasks), str(tasks)) for tasks in TASKS)
-    panel = Panel("tasks", "total cost saved (%)", series, ticks=ticks, from_zero=True)
+    panel = Panel("tasks", "total cost saved (%)", series, ticks=ticks)
     return Chart("saving", "What assignment saves over none (NTA)", (panel,))
 
 

@@ -73,7 +73,7 @@ def _chart(rows: Sequence[Row]) -> Chart:
         for tasks in TASKS
         for name, words in MEASURES.items()
     )
-    note = "Means over instances; bands are 95 % intervals."
+    note = "Means over instances; bars are 95 % intervals."
     return Chart("robots", "The same tasks for more and more robots", panels, note, columns=3)
 
 

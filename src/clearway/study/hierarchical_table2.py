@@ -170,7 +170,7 @@ def _saving_chart(rows: Sequence[Row]) -> Chart:
         for i, other in enumerate(CLAIMED_COST):
             ours, theirs = pairs(pick(rows, method=method), pick(rows, method=other), "total_cost")
             if ours:
-                points.append((i - 0.08 + 0.16 * colour, statistics.saving(ours, theirs)))
+                points.append((float(i), statistics.saving(ours, theirs)))
         series.append(Series.of(name, points, "points", colour))
     claimed = tuple(CLAIMED_COST.values())
     places = tuple(float(i) for i in range(len(claimed)))

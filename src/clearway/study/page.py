@@ -65,8 +65,9 @@ def _cell(text: str) -> str:
 
 def _figure(chart: Chart, light: bytes) -> str:
     note = f"<figcaption>{escape(chart.note)}</figcaption>" if chart.note else ""
+    wide = "" if len(chart.panels) > 1 else ' class="single"'
     return (
-        f'<figure><picture><source media="(prefers-color-scheme: dark)" '
+        f'<figure{wide}><picture><source media="(prefers-color-scheme: dark)" '
         f'srcset="{_embedded(draw(chart, DARK))}"><img src="{_embedded(light)}" '
         f'alt="{escape(chart.title, quote=True)}"></picture>{note}</figure>'
     )
