@@ -2,16 +2,15 @@
 
 import time
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from random import Random
 from statistics import fmean
 
 from clearway.assign import build
 from clearway.protocols import Budget, objective
 from clearway.study.experiment import Cell, Row, Scale
-from clearway.study.methods import ASSIGNERS, PLANNER, words_of
+from clearway.study.methods import ASSIGNERS, PLANNER, system_of, words_of
 from clearway.study.statistics import Estimate, mean
-from clearway.systems import HierarchicalSettings, hierarchical, make_plan
+from clearway.systems import make_plan
 from clearway.validate import validate_plan
 from clearway.world.warehouse import random_warehouse
 
@@ -52,18 +51,13 @@ def row(cell: Cell) -> Row:
     """Assign in each trial, plan one trial drawn at random, judge the plan; lengths in m."""
     settings, trials = cell.settings, cell.settings["trials"]
     scenario = random_warehouse(settings["robots"], settings["tasks"], cell.seed)
-    assigner = ASSIGNERS[settings["method"]].make()
+    system = system_of(settings["method"])
     problem = build(scenario)
     begin = time.process_time()
-    routes = [assigner(problem, trial) for trial in range(trials)]
+    routes = [system.assign(problem, trial) for trial in range(trials)]
     spent = time.process_time() - begin
     fitness = [objective(problem, each).value for each in routes]
     drawn = Random(cell.seed).randrange(trials)
-    system = replace(
-        hierarchical(HierarchicalSettings(even=True, objective="paper")),
-        assign=assigner,
-        plan=PLANNER.make(),
-    )
     planned = make_plan(
         scenario,
         system=system,

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from clearway.plot.palette import line_colour
 from clearway.study.findings import Chart, Panel
 
-PANEL = (5.6, 3.7)  # inches
-ONE_PANEL = (8.0, 4.4)
+# Inches of a panel beside others, of one alone, and of one above others.
+PANEL, ONE_PANEL, WIDE_PANEL = (5.6, 3.7), (8.0, 4.4), (11.0, 2.7)
 DOTS = 130
 MARKS = "osD^vPX"
 # A line of more points than this has no marks and no bars.
@@ -38,7 +39,7 @@ def draw(chart: Chart, ground: Ground = LIGHT) -> bytes:
     """Return a chart as PNG; the same chart gives the same bytes."""
     columns = min(chart.columns, len(chart.panels))
     rows = math.ceil(len(chart.panels) / columns)
-    width, height = ONE_PANEL if len(chart.panels) == 1 else PANEL
+    width, height = ONE_PANEL if rows == columns == 1 else WIDE_PANEL if columns == 1 else PANEL
     figure = Figure(
         figsize=(width * columns, height * rows + 0.7),
         dpi=DOTS,
@@ -111,16 +112,32 @@ def _draw(axes: Axes, panel: Panel, ground: Ground) -> None:
                 label=name,
                 zorder=4,
             )
+    _shade(axes, panel, ground)
+    if panel.from_zero:
+        axes.set_ylim(bottom=0.0)
+
+
+def _shade(axes: Axes, panel: Panel, ground: Ground) -> None:
+    """Shade the spans; of words that would cover each other only the first is written."""
+    low, high = axes.get_xlim()
+    written = low - (high - low)
     for span in panel.spans:
         axes.axvspan(span.begin, span.end, color=ground.ink, alpha=0.12, linewidth=0)
         middle = 0.5 * (span.begin + span.end)
-        place = ("data", "axes fraction")
-        axes.annotate(
-            _plain(span.label), (middle, 0.98), xycoords=place, ha="center", va="top",
-            rotation=90, color=ground.ink, fontsize=8,
-        )  # fmt: skip
-    if panel.from_zero:
-        axes.set_ylim(bottom=0.0)
+        if middle - written > 0.025 * (high - low):
+            written = middle
+            axes.annotate(
+                _plain(span.label),
+                (middle, 0.98),
+                xycoords=("data", "axes fraction"),
+                ha="center",
+                va="top",
+                rotation=90,
+                color=ground.ink,
+                fontsize=8,
+                path_effects=[withStroke(linewidth=2.5, foreground=ground.page)],
+                zorder=6,
+            )
 
 
 def _shifts(panel: Panel) -> list[float]:

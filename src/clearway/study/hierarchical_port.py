@@ -144,7 +144,7 @@ def _yielding_table(row: Row) -> Table:
             each["kind"],
             f"{each['lost']:.1f}",
             f"({each['place'][0]:.1f}, {each['place'][1]:.1f})",
-            "nobody found" if each["partner"] is None else str(each["partner"]),
+            "nobody it would meet soon" if each["partner"] is None else str(each["partner"]),
             "-" if each["meeting"] is None else f"{each['meeting']:.1f}",
         )
         for each in row["yielding"]
@@ -154,7 +154,8 @@ def _yielding_table(row: Row) -> Table:
         ("robot", "from, to (s)", "how", "time lost (s)", "where", "for", "would have met at (s)"),
         lines,
         "Beside each robot's plan by the same planner with nobody else on the site. The partner "
-        "is the one that it would have met first, going on as if it were alone.",
+        "is the one that it would have met first, within half a minute, going on as if it were "
+        "alone; without one it drives another way than alone.",
     )
 
 
@@ -231,7 +232,7 @@ def _speed_chart(row: Row) -> Chart:
             (Series(robot, times, tuple(speeds), colour=colour),),
             robot,
             spans=tuple(
-                Span(each["begin"], each["end"], f"{each['kind']} for {each['partner']}")
+                Span(each["begin"], each["end"], _yields(each))
                 for each in row["yielding"]
                 if each["robot"] == robot
             ),
@@ -248,6 +249,23 @@ def _speed_chart(row: Row) -> Chart:
     )
 
 
+def _least_speeds(row: Row, some: Sequence[dict[str, Any]]) -> list[str]:
+    """Return each robot's least speed while it yields to somebody."""
+    least: dict[str, float] = {}
+    for each in some:
+        speeds = [
+            speed
+            for time, speed in zip(row["times"], row["speeds"][each["robot"]], strict=True)
+            if each["begin"] <= time <= each["end"]
+        ]
+        least[each["robot"]] = min([least.get(each["robot"], np.inf), *speeds])
+    return [f"{robot} {speed:.1f} m/s" for robot, speed in sorted(least.items())]
+
+
+def _yields(each: dict[str, Any]) -> str:
+    return f"{each['kind']} for {each['partner']}" if each["partner"] else str(each["kind"])
+
+
 def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
     first = rows[0]
     complete = sum(row["status"] == "solved" for row in rows)
@@ -255,7 +273,7 @@ def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
     least = min((each["metres"] for each in first["least"]), default=None)
     told = "fewer than two robots" if least is None else f"the bodies come to {least:.2f} m"
     partners = [each for each in first["yielding"] if each["partner"] is not None]
-    slowed = sorted({each["robot"] for each in first["yielding"]})
+    slowed = sorted({each["robot"] for each in partners})
     return (
         Finding(
             "Paper, Sec. 5: all robots do their work without conflict or deadlock",
@@ -269,10 +287,10 @@ def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
             None if least is None else least > 0.0,
         ),
         Finding(
-            "Paper, Sec. 5: two robots slow down for another at a narrow junction",
-            f"{len(first['yielding'])} times somebody yields ({', '.join(slowed) or 'nobody'}), "
-            f"{len(partners)} times for a robot that can be named",
-            len({each["robot"] for each in partners}) >= 2,
+            "Paper, Sec. 5: two robots slow down at a narrow junction (there to 0.8 m/s)",
+            f"{len(partners)} times for a robot that can be named ({', '.join(slowed) or '-'}); "
+            f"least speeds then: {', '.join(_least_speeds(first, partners)) or 'none'}",
+            len(slowed) >= 2,
         ),
     )
 

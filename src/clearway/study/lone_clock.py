@@ -14,7 +14,7 @@ TEAM, LONE = 0.2, 0.05
 # A radian of heading counts like so many metres when places are compared.
 RADIAN = 1.0
 # Pace is measured over this many seconds.
-WINDOW = 1.0
+WINDOW = 2.0
 
 
 class LoneClock(NamedTuple):
@@ -29,7 +29,7 @@ class LoneClock(NamedTuple):
     away
         Distance from that place (m), a radian of heading counting as a metre.
     pace
-        Seconds of the lone plan per second of the team's, over a second around.
+        Seconds of the lone plan per second of the team's, over two seconds around.
     """
 
     times: Floats

@@ -1,12 +1,14 @@
 """The assigners and planners that the studies of system A compare: a line each."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Generic, TypeVar
 
 from clearway.assign import InsertionLocalSearch, InsertionParams, RandomAssigner
+from clearway.coordinate import System
 from clearway.plan import PrioritisedPlanner, TeamParams
 from clearway.protocols import Assigner, Budget, Planner
+from clearway.systems import HierarchicalSettings, hierarchical
 
 T_co = TypeVar("T_co", covariant=True)
 
@@ -66,6 +68,13 @@ PLANNER: Part[Planner] = Part(
     "prioritised planning with rip-up for the least cost of the paper, weight 1.1, 20 restarts",
     lambda: _prioritised(1.1),
 )
+
+
+def system_of(label: str) -> System:
+    """Return system A with one of the assigners, for the problem as the paper has it."""
+    settings = HierarchicalSettings(even=True, objective="paper")
+    return replace(hierarchical(settings), assign=ASSIGNERS[label].make(), plan=PLANNER.make())
+
 
 # Planners of the corridor study. Those with these labels answer for the paper's xi = 1 and
 # adaptive xi; its claims are not told while they are missing.

@@ -14,9 +14,11 @@ from clearway.study.lone_clock import lone_clock
 from clearway.validate import gaps_over_time
 
 # Below this share of its lone pace a robot yields; losses below so many seconds are none.
-PACE, LEAST_LOSS = 0.8, 0.5
+PACE, LEAST_LOSS = 0.8, 1.0
 # Stretches that are nearer than this (s) are one.
-NEAR = 1.0
+NEAR = 3.0
+# Whom a robot would meet later than this after it began to yield (s), it does not yield to.
+AHEAD = 30.0
 # Farther than this (m) from its lone way a robot takes a detour.
 OFF = 1.0
 # Seconds between the moments at which a lone way is compared with the others' plans.
@@ -29,8 +31,8 @@ class Yielding(NamedTuple):
     """A stretch of time in which a robot loses time against its lone plan.
 
     ``kind`` is ``waits``, ``slows`` or ``detours``; ``partner`` is the robot that it would
-    have met ``meeting`` seconds into the plan, going on as if it were alone, ``None`` where
-    it would have met nobody.
+    have met first, ``meeting`` seconds into the plan, going on as if it were alone; ``None``
+    where it would have met nobody within half a minute.
     """
 
     robot: str
@@ -111,7 +113,7 @@ def _partner(
 ) -> tuple[str | None, float | None]:
     """Return whom the robot meets first, and when, if it goes on alone from ``begin``."""
     ahead = _going_on(track_of(record, robot), track_of(lone, robot), begin, alone)
-    times = np.arange(begin, float(ahead.t[-1]) + STEP, STEP)
+    times = np.arange(begin, min(float(ahead.t[-1]), begin + AHEAD) + STEP, STEP)
     met: list[tuple[float, str]] = []
     for other in record.robots:
         if other.id == robot.id:
