@@ -85,6 +85,13 @@ def test_no_process_at_all_is_refused():
         local(0)
 
 
+@pytest.mark.parametrize("address", ["here", "tcp://here", "tcp://here:port", ""])
+def test_an_address_without_a_port_is_refused(address):
+    """Before anybody waits for an answer."""
+    with pytest.raises(ValueError, match=r"workers: .* write tcp://HOST:8786"):
+        cluster(address)
+
+
 @pytest.fixture(scope="module")
 def scheduler():
     """The address of a Dask cluster of two processes."""

@@ -103,7 +103,7 @@ def _saving_chart(rows: Sequence[Row]) -> Chart:
 def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
     found = [
         saving_finding(
-            f"Paper, Sec. 4.3: with {tasks} tasks APSGA's total cost is {claimed} % below NTA's",
+            f"Paper, Sec. 4.4: with {tasks} tasks APSGA's total cost is {claimed} % below NTA's",
             claimed,
             *_both(rows, tasks, APSGA),
         )
@@ -113,7 +113,7 @@ def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
         [100.0 * (1.0 - a / b) for a, b in zip(*_both(rows, tasks, APSGA), strict=True)]
         for tasks in (min(TASKS), max(TASKS))
     )
-    claim = "Paper, Sec. 4.3: APSGA saves more when tasks are more"
+    claim = "Paper, Sec. 4.4: APSGA saves more when tasks are more"
     if min(len(few), len(many)) < 2:
         return (*found, Finding(claim, "fewer than two pairs of complete plans", None))
     grown = statistics.unpaired(many, few)

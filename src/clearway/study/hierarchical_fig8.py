@@ -82,13 +82,13 @@ def _findings(rows: Sequence[Row]) -> tuple[Finding, ...]:
     same = _change(rows, 16, 4, 8)
     return (
         Finding(
-            "Paper, Sec. 4.3: more robots reduce the total cost of few tasks (8 tasks, 4 robots "
+            "Paper, Sec. 4.4: more robots reduce the total cost of few tasks (8 tasks, 4 robots "
             "against 2, APSGA)",
             _told(fewer),
             None if fewer is None or not fewer.excludes_zero else fewer.high < 0.0,
         ),
         Finding(
-            "Paper, Sec. 4.3: 8 robots with 16 tasks cost about what 4 do, by congestion (APSGA)",
+            "Paper, Sec. 4.4: 8 robots with 16 tasks cost about what 4 do, by congestion (APSGA)",
             _told(same),
             None if same is None else same.low <= 0.0 <= same.high,
         ),
@@ -116,7 +116,7 @@ def _told(change: Estimate | None) -> str:
 
 def _turning_point(rows: Sequence[Row], tasks: int) -> Finding:
     """Tell at how many robots the mean cost is least, and whether more of them cost more."""
-    claim = f"Paper, Sec. 4.3: robots beyond some number do not help ({tasks} tasks, our default)"
+    claim = f"Paper, Sec. 4.4: robots beyond some number do not help ({tasks} tasks, our default)"
     costs = means(pick(rows, tasks=tasks, method=OURS), "total_cost", "robots")
     if len(costs) < 2:
         return Finding(claim, "too few complete plans", None)

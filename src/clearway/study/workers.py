@@ -10,6 +10,7 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
+from urllib.parse import urlsplit
 
 
 @dataclass(frozen=True)
@@ -90,8 +91,10 @@ def cluster(address: str) -> Workers:
     Raises
     ------
     ValueError
-        If Dask is not installed.
+        If the address is none, or Dask is not installed.
     """
+    if not _is_address(address):
+        raise ValueError(f"workers: {address!r} is no scheduler's address; write tcp://HOST:8786")
     try:
         import distributed  # noqa: F401
     except ImportError:
@@ -99,6 +102,14 @@ def cluster(address: str) -> Workers:
             "workers: Dask is not installed; pip install 'clearway[cluster]'"
         ) from None
     return partial(_dask, address)
+
+
+def _is_address(text: str) -> bool:
+    try:
+        parts = urlsplit(text)
+        return bool(parts.scheme and parts.hostname and parts.port)
+    except ValueError:  # a port that is no number
+        return False
 
 
 @contextmanager
