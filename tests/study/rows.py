@@ -21,9 +21,10 @@ def dies_once(cell):
 
 
 def deadly(cell):
-    """The worker of x = 2 never survives."""
+    """The worker of x = 2 never survives; the others are at work when it dies."""
     if cell.settings["x"] == 2:
         os._exit(1)
+    time.sleep(0.4)
     return plain(cell)
 
 

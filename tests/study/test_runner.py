@@ -1,5 +1,6 @@
 """Every row once, whatever happens to those who make them."""
 
+import multiprocessing
 import time
 
 import pytest
@@ -77,6 +78,9 @@ def test_leaving_early_ends_the_workers():
     begin = time.monotonic()
     running.close()
     assert time.monotonic() - begin < 1.0
+    while multiprocessing.active_children() and time.monotonic() - begin < 5.0:
+        time.sleep(0.02)
+    assert not multiprocessing.active_children()
 
 
 def test_no_process_at_all_is_refused():

@@ -93,6 +93,38 @@ def test_a_robot_that_drives_slower_yields_too():
     assert found.end - found.begin == pytest.approx(6.0, abs=1.2)
 
 
+def test_of_two_the_first_that_it_would_meet_is_named():
+    """Another crosses ten metres farther on, where the robot would be five seconds later."""
+    later = track((0.0, -30.0, 10.0), (20.0, 10.0, 10.0))
+    plan = record(later=later, east=EAST, north=WAITS)
+    (found,) = yieldings(plan, ALONE | {"later": record(later=later)})
+    assert (found.robot, found.partner) == ("north", "east")
+    without = record(later=later, north=WAITS)
+    (found,) = yieldings(without, ALONE | {"later": record(later=later)})
+    assert (found.robot, found.partner) == ("north", "later")
+    assert found.meeting == pytest.approx(15.0 - 2.5 / 2.0, abs=0.3)
+
+
+def test_a_second_wait_is_measured_from_where_the_first_left_it():
+    """Three seconds lost for nobody; then it would be at the crossing at 16 s, as the other."""
+    north = track((0.0, 0.0, -26.0), (23.0, 0.0, 20.0), theta=np.pi / 2.0)
+    twice = track(
+        (0.0, 0.0, -26.0),
+        (2.0, 0.0, -22.0),
+        (5.0, 0.0, -22.0),
+        (11.0, 0.0, -10.0),
+        (15.0, 0.0, -10.0),
+        (30.0, 0.0, 20.0),
+        theta=np.pi / 2.0,
+    )
+    east = track((0.0, -32.0, 0.0), (26.0, 20.0, 0.0))
+    alone = {"east": record(east=east), "north": record(north=north)}
+    first, second = yieldings(record(east=east, north=twice), alone)
+    assert (first.partner, second.partner) == (None, "east")
+    assert (first.lost, second.lost) == (pytest.approx(3.0, abs=0.3), pytest.approx(4.0, abs=0.3))
+    assert second.meeting == pytest.approx(16.0 - 2.5 / 2.0, abs=0.3)
+
+
 def test_who_waits_for_nobody_has_no_partner():
     """The other is far away."""
     away = track((0.0, -20.0, 40.0), (20.0, 20.0, 40.0))
