@@ -152,7 +152,7 @@ def test_the_corridor_runs_from_cell_to_picture():
     assert len(summary.tables[0].lines) == len(cells)
 
 
-def corridor_row(method, seed, cost, seconds, bound=100.0, status="solved"):
+def corridor_row(method, seed, cost, seconds, bound=100.0, status="solved", graph="lattice"):
     """A row of the corridor study with eight robots."""
     return {
         "robots": 8,
@@ -163,6 +163,7 @@ def corridor_row(method, seed, cost, seconds, bound=100.0, status="solved"):
         "cost": cost if status == "solved" else None,
         "cost_lower_bound": 50.0,
         "discrete_bound_value": bound,
+        "discrete_bound_graph": graph,
         "farthest": 40.0,
         "plan_cpu_s": seconds,
     }
@@ -187,6 +188,29 @@ def test_the_corridors_claims_are_judged_on_what_both_solve(monkeypatch):
     assert dearer.holds and "over 6 instances" in dearer.ours
     assert faster.holds
     assert aim.holds and "3.15 % above" in aim.ours
+
+
+def test_plans_that_meet_their_own_bound_are_optimal(monkeypatch):
+    """Four of seven: half is reached; the others' gap is told."""
+    monkeypatch.setattr(hierarchical_corridor, "CORRIDOR", dict.fromkeys(("optimal",)))
+    rows = [
+        corridor_row("optimal", seed, 100.0, 10.0, bound=100.0 if seed < 4 else 80.0)
+        for seed in range(7)
+    ]
+    summary = hierarchical_corridor.summarise(rows)
+    found = next(each for each in summary.findings if "of 8 robots optimal" in each.claim)
+    assert found.holds
+    assert found.ours.startswith("4 of 7 proven; the gap of the 3 other plans: median 25.0")
+    assert summary.tables[0].lines[0][2:5] == ("7 of 7", "7", "4")
+
+
+def test_a_bound_on_another_graph_is_none(monkeypatch):
+    """A plan from a graph without a bound of its own is held to that of continuous motion."""
+    monkeypatch.setattr(hierarchical_corridor, "CORRIDOR", dict.fromkeys(("optimal", "adaptive")))
+    rows = [corridor_row("optimal", 0, 100.0, 10.0), corridor_row("adaptive", 0, 90.0, 1.0)]
+    rows[1] |= {"discrete_bound_value": None, "discrete_bound_graph": None}
+    lines = hierarchical_corridor.summarise(rows).tables[0].lines
+    assert [line[6] for line in lines] == ["1.00 (n = 1)", "1.80 (n = 1)"]
 
 
 def test_the_ports_analysis_runs_on_any_scenario():
