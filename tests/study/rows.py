@@ -5,6 +5,8 @@ import signal
 import time
 from pathlib import Path
 
+from clearway.formats.atomic import FormatError
+
 
 def plain(cell):
     """A square, and seconds that differ from run to run."""
@@ -38,3 +40,8 @@ def slow(cell):
 def wrong(cell):
     """A row function with an error of its own."""
     raise LookupError(f"no row for {cell.key}")
+
+
+def refusing(cell):
+    """A row function that finds its scenario broken."""
+    raise FormatError("a number is expected", file="site.toml", key="seed", mend="write one")

@@ -70,6 +70,13 @@ def test_an_error_of_the_row_function_is_told_at_once():
     assert time.monotonic() - begin < 30.0
 
 
+def test_bad_input_of_a_row_is_told_with_its_cell():
+    """The error has more than a message, which would not come through from another process."""
+    told = r"cell seed=7 x=0: site.toml: seed: a number is expected; write one"
+    with pytest.raises(ValueError, match=told):
+        list(rows_of(rows.refusing, cells(1), local(1)))
+
+
 def test_leaving_early_ends_the_workers():
     """Two sleep for ten minutes; closing takes less than a second."""
     running = rows_of(rows.slow, cells(4), local(2))

@@ -31,6 +31,11 @@ def rows_of(
     ----------
     tick
         Called every half second at least.
+
+    Raises
+    ------
+    ValueError
+        If the row function refuses its input; names the cell.
     """
     left = {cell.key: cell for cell in cells}
     deaths: Counter[str] = Counter()
@@ -58,7 +63,7 @@ def _answers(
     while True:
         while not broken and len(running) < AHEAD * crew.slots and (cell := next(ahead, None)):
             try:
-                running[crew.executor.submit(row, cell)] = cell
+                running[crew.executor.submit(_told, row, cell)] = cell
             except crew.deaths:
                 broken = True
                 yield cell, None
@@ -75,3 +80,15 @@ def _answers(
             else:
                 yield cell, answer
         tick()
+
+
+def _told(row: Callable[[Cell], Row], cell: Cell) -> Row:
+    """Call a row function in a worker.
+
+    Errors about input carry more than a message and do not survive the way between processes,
+    so they are told in words, with the cell.
+    """
+    try:
+        return row(cell)
+    except (ValueError, OSError) as error:
+        raise ValueError(f"cell {cell.key}: {error}") from None
