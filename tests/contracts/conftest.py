@@ -6,12 +6,15 @@ import pytest
 from tests.plan.rooms import judged
 
 from clearway.model import Status
-from clearway.plan import ConflictBasedSearch, ConflictParams, PrioritisedPlanner
+from clearway.plan import ConflictBasedSearch, ConflictParams, InTurn, PrioritisedPlanner
 from clearway.protocols import Budget
 
 PLANNERS = {
     "prioritised": PrioritisedPlanner,
     "conflicts, adaptive": lambda: ConflictBasedSearch(ConflictParams(paper_cost=False)),
+    "in turn": lambda: InTurn(
+        (ConflictBasedSearch(ConflictParams(paper_cost=False)), PrioritisedPlanner()), 5_000
+    ),
     "conflicts, bounded": lambda: ConflictBasedSearch(ConflictParams("bounded", paper_cost=False)),
 }
 

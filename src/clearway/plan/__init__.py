@@ -1,6 +1,14 @@
 """Planners: how a team moves through its tours."""
 
 from clearway.plan.conflict_based import ConflictBasedSearch, ConflictParams
+from clearway.plan.in_turn import InTurn
 from clearway.plan.prioritised import Aim, PrioritisedPlanner, TeamParams
 
-__all__ = ["Aim", "ConflictBasedSearch", "ConflictParams", "PrioritisedPlanner", "TeamParams"]
+__all__ = [
+    "Aim",
+    "ConflictBasedSearch",
+    "ConflictParams",
+    "InTurn",
+    "PrioritisedPlanner",
+    "TeamParams",
+]
