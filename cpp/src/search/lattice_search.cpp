@@ -380,7 +380,6 @@ bool LatticeSearch::comes_in_time(const Label& label) const {
 void LatticeSearch::push(Label label) {
   const double h = estimate(label);
   if (!(h < kFar)) return;
-  if (label.leg < num_legs() && !comes_in_time(label)) return;
   if (label.leg < num_legs()) {
     const Lattice& lattice = lattices_[static_cast<std::size_t>(label.leg)];
     label.end = stands_until(label.leg, label.node, label.t);
@@ -393,7 +392,8 @@ void LatticeSearch::push(Label label) {
     if (heads.size() < static_cast<std::size_t>(lattice.num_nodes()) * wide) {
       heads.resize(static_cast<std::size_t>(lattice.num_nodes()) * wide, kNone);
     }
-    if (dominated(label, heads[s])) {
+    // What comes too late for a rule that bids may still come after it.
+    if (!comes_in_time(label) || dominated(label, heads[s])) {
       later(label);
       return;
     }
