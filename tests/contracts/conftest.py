@@ -24,10 +24,16 @@ def planner(request):
     return PLANNERS[request.param]()
 
 
+@pytest.fixture
+def made_anew(request):
+    """Another planner just like the one under examination."""
+    return PLANNERS[request.node.callspec.params["planner"]]()
+
+
 def skip_refused(planner, problem):
     """Skip a problem that the planner refuses by name; the prioritised one takes all of them."""
     reasons = planner.unsupported(problem)
-    if reasons and not isinstance(planner, PrioritisedPlanner):
+    if reasons and isinstance(planner, ConflictBasedSearch):
         with pytest.raises(ValueError, match=re.escape(reasons[0])):
             planner(problem, Budget(expansions=10), 0)
         pytest.skip(f"refused by name: {'; '.join(reasons)}")

@@ -411,13 +411,13 @@ def test_a_budget_of_seconds_stops_a_search_that_would_go_on(planner):
 
 
 @pytest.mark.parametrize("expansions", [300, 30_000])
-def test_the_same_seed_and_budget_give_the_same_plan(planner, expansions):
+def test_the_same_seed_and_budget_give_the_same_plan(planner, made_anew, expansions):
     """Plans are equal piece by piece, finished or not, also from a planner made anew."""
     problem = random_team(4)
     budget = Budget(expansions=expansions)
     one, other = planner(problem, budget, 7), planner(problem, budget, 7)
     assert one == other
-    assert type(planner)(planner.params)(problem, budget, 7) == one
+    assert made_anew(problem, budget, 7) == one
 
 
 def test_more_effort_never_makes_a_plan_worse(planner):

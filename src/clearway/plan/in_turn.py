@@ -44,7 +44,7 @@ class InTurn:
             if budget.expansions is not None:
                 left = min(left, budget.expansions - spent)
             plan = planner(problem, replace(budget, expansions=left), seed, progress)
-            spent += plan.counters["expansions"]
+            spent += plan.counters.get("expansions", 0)
             if plan or plan.counters.get("interrupted"):
                 return _counted(plan, spent)
         rest = None if budget.expansions is None else budget.expansions - spent
