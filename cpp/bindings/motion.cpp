@@ -104,6 +104,7 @@ void bind_motion(nb::module_& m) {
       .def_rw("connections", &MotionTable::connections)
       .def_rw("turn_arm", &MotionTable::turn_arm)
       .def_rw("switch_duration", &MotionTable::switch_duration)
+      .def_rw("has_modes", &MotionTable::has_modes)
       .def_rw("paces", &MotionTable::paces, "What each mode is, where acceleration is limited.")
       .def_rw("acceleration", &MotionTable::acceleration)
       .def_rw("deceleration", &MotionTable::deceleration);

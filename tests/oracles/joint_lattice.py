@@ -23,6 +23,7 @@ TICK_STEP = 10  # between samples
 TOLERANCE = 0.008  # a gap so near to what is required, or an overlap so slight, is unclear (m)
 LEAST_GAP = 0.01  # kept where the clearance asks for less (m)
 WORDS, LOOKED_AT, REACH = 2, 6, 12.0
+SAME = 1e-6  # costs that differ by less are equal
 TURNING, SWITCH, WAITING = 2.0, 3.0, 0.1
 
 
@@ -98,7 +99,10 @@ class Motion:
 class Lattice:
     """All poses of one robot and what it can do there, by (leg, node)."""
 
-    def __init__(self, problem: Problem, index: int, slot: int, paper: bool) -> None:
+    def __init__(
+        self, problem: Problem, index: int, slot: int, paper: bool, all_ties: bool
+    ) -> None:
+        self.all_ties, self.has_ties = all_ties, False
         robot = problem.robots[index]
         kind = problem.robot_types[robot.type]
         model = lattice_model(kind, model_of(kind, LATTICE_HEADINGS))
@@ -212,7 +216,7 @@ class Lattice:
         good = [w for w in ways if not self._begins_with_primitive(w) and self.is_clear(w, pose)]
         last = leg + 1 == len(self.visits)
         service = self.whole(to_ticks(self.visits[leg].service))
-        for way in good[:WORDS]:
+        for way in self._best(good, len(ways)):
             cost, ticks = self._cost(way), sum(ticks for _, ticks, _ in way)
             rounded = self.whole(ticks)
             if way:
@@ -228,6 +232,25 @@ class Lattice:
                 None if last else self._node(leg + 1, self.stops[leg + 1]),
                 self.sampled(way, pose, service),
             )
+
+    def _best(self, good: list, found: int) -> list:
+        """Return the cheapest ways; of those that tie for the last place, all or none."""
+        if len(good) <= WORDS:
+            return good
+        last = self._cost(good[WORDS - 1])
+        tied = [way for way in good if abs(self._cost(way) - last) < SAME]
+        sure = [way for way in good if self._cost(way) < last - SAME]
+        alike = len({self._spelled(way) for way in tied}) == 1
+        if alike or len(sure) + len(tied) <= WORDS:
+            return good[:WORDS]
+        if tied[-1] is good[-1] and found == LOOKED_AT:
+            raise Unclear("more ways may cost the same than are looked at")
+        self.has_ties = True
+        return sure + tied if self.all_ties else sure
+
+    @staticmethod
+    def _spelled(way) -> tuple:
+        return tuple((mode, *(round(v, 6) + 0.0 for v in twist)) for twist, _, mode in way)
 
     def _begins_with_primitive(self, way) -> bool:
         if not way:
@@ -295,8 +318,12 @@ class Stage:
 class JointSearch:
     """A* over what all robots do; ``expansions`` bounds it."""
 
-    def __init__(self, problem: Problem, slot: int, paper: bool, expansions: int = 20_000) -> None:
-        self.lattices = [Lattice(problem, i, slot, paper) for i in range(len(problem.robots))]
+    def __init__(
+        self, problem: Problem, slot: int, paper: bool, expansions: int, all_ties: bool = True
+    ) -> None:
+        self.lattices = [
+            Lattice(problem, i, slot, paper, all_ties) for i in range(len(problem.robots))
+        ]
         self.slot, self.expansions = slot, expansions
         self._met: dict = {}
         for a, b in itertools.combinations(self.lattices, 2):
@@ -366,12 +393,12 @@ class JointSearch:
             begin = t + pause
             yield Stage(motion.target, mode, begin, begin + motion.slots, motion, pause), cost
 
-    def __call__(self) -> float | None:
-        """Return the least cost (m, or ticks) of a plan without conflict; None: there is none."""
+    def __call__(self) -> float:
+        """Return the least cost (m, or ticks) of a plan without conflict; infinite: none."""
         start = tuple(Stage((0, 0), -1, 0, 0, None) for _ in self.lattices)
         left = sum(self.alone())
         if math.isinf(left):
-            return None
+            return math.inf
         count = itertools.count()
         queue = [(left, next(count), 0.0, start)]
         seen = set()
@@ -397,7 +424,7 @@ class JointSearch:
                     continue
                 after = (*stages[:i], new, *stages[i + 1 :])
                 heapq.heappush(queue, (f + cost + h, next(count), g + cost, after))
-        return None
+        return math.inf
 
     def _left(self, i: int, stage: Stage) -> float:
         if stage.at is None:
@@ -413,3 +440,18 @@ class JointSearch:
             + ((id(s.motion), s.stood) if s.end > now and not s.rests else ())
             for s in stages
         )
+
+
+def least_cost(problem: Problem, slot: int, paper: bool, expansions: int) -> tuple[float, float]:
+    """Return what the best plan costs (m, or ticks), and what it would if nobody met anybody.
+
+    Infinite where there is none. Raises `Unclear` where rounding decides.
+    """
+    search = JointSearch(problem, slot, paper, expansions)
+    best, alone = search(), sum(search.alone())
+    if any(lattice.has_ties for lattice in search.lattices):
+        # Which of the ways that tie are on the graph must not matter.
+        other = JointSearch(problem, slot, paper, expansions, all_ties=False)()
+        if best != other and not abs(best - other) < SAME:
+            raise Unclear("it matters which of the ways are taken that cost the same")
+    return best, alone

@@ -129,8 +129,8 @@ void add_switches(const MotionTable& table, const Objective& objective, Shot& sh
   for (const Step& step : shot.steps) {
     if (!steps.empty() && step.mode != steps.back().mode) {
       if (!objective.time) {
-        shot.cost +=
-            objective.mode_switch + objective.waiting * table.switch_duration / kTicksPerSecond;
+        shot.cost += table.switch_cost(objective) +
+                     objective.waiting * table.switch_duration / kTicksPerSecond;
       }
       if (table.switch_duration > 0) steps.push_back({-1, {}, table.switch_duration});
     }

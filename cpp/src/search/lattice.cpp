@@ -35,8 +35,9 @@ Lattice::Lattice(const Model& model, const Leg& leg, const Pose& start, bool las
       by_mode_(tells_modes_apart(model.table, objective)) {
   const Ticks pause = whole_slots(model.table.switch_duration);
   switch_slots_ = pause / params.slot;
-  switch_cost_ =
-      objective.time ? pause : objective.mode_switch + objective.waiting * pause / kTicksPerSecond;
+  switch_cost_ = objective.time ? pause
+                                : model.table.switch_cost(objective) +
+                                      objective.waiting * pause / kTicksPerSecond;
   service_slots_ = whole_slots(leg.service) / params.slot;
   for (const Primitive& p : model.table.primitives) {
     primitives_.push_back({p.mode, p.twist, whole_slots(p.duration)});

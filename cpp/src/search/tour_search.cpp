@@ -585,7 +585,7 @@ void TourRun::expand(std::int32_t index) {
     child.edge = static_cast<std::int32_t>(i);
     child.after = kNever;
     child.step = objective_of(table_, s_.objective_, primitive_steps_[i]);
-    if (switching && !s_.objective_.time) child.step += s_.objective_.mode_switch;
+    if (switching && !s_.objective_.time) child.step += table_.switch_cost(s_.objective_);
     depart(child, leaving + (switching ? table_.switch_duration : 0));
     const Interval* seen =
         cells_.covering(child.x, child.y, child.k, child.leg, child.mode, child.t, child.cost, 0);
@@ -625,7 +625,7 @@ void TourRun::shoot(std::int32_t index) {
     if (!shot.steps.empty() && node.mode >= 0 &&
         shot.steps.front().mode != table_.moving(node.mode)) {
       pause = table_.switch_duration;
-      if (!s_.objective_.time) child.step += s_.objective_.mode_switch;
+      if (!s_.objective_.time) child.step += table_.switch_cost(s_.objective_);
     }
     child.edge = static_cast<std::int32_t>(primitive_steps_.size() + shots_.size());
     child.after = kNever;

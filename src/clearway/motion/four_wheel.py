@@ -95,4 +95,5 @@ def four_wheel(robot_type: RobotType, headings: int = 16) -> MotionModel:
         yaw_rate=yaw_rate,
         turn_arm=robot_type.footprint.length / 2.0,
         mode_switch=robot_type.mode_switch,
+        has_modes=True,
     )

@@ -122,6 +122,7 @@ class MotionModel:
     ``turn_arm`` (m) is the radius of the arc as which turning on the spot is counted in costs
     of length; ``mode_switch`` (s) the standing time of a change of mode. ``acceleration`` and
     ``deceleration`` (m/s^2) are those of the ramps, which curves are driven with too.
+    ``has_modes``: changes of mode are seen, and cost what the paper's cost charges for them.
     """
 
     headings: int
@@ -133,6 +134,7 @@ class MotionModel:
     mode_switch: float = 0.0
     acceleration: float = math.inf
     deceleration: float = math.inf
+    has_modes: bool = False
 
     def __post_init__(self) -> None:
         names = [mode.name for mode in self.modes]

@@ -24,6 +24,7 @@ def native_table(model: MotionModel) -> _core.MotionTable:
     table.top_speed = model.top_speed
     table.rest = [mode.rest for mode in model.modes]
     table.switch_duration = to_ticks(model.mode_switch)
+    table.has_modes = model.has_modes
     table.turn_arm = model.turn_arm
     table.primitives = [_primitive(model, motion, number) for motion in model.motions]
     table.connections = [_connection(model, curve, number) for curve in model.curves]

@@ -79,6 +79,7 @@ struct MotionTable {
   std::vector<Connection> connections;
   double turn_arm = 0.0;      // turning on the spot costs as an arc of this radius (m)
   Ticks switch_duration = 0;  // standing time of a change of moving mode
+  bool has_modes = true;      // whether such a change costs more than its time
   // Where acceleration is limited (m/s^2): what each mode is. Steps are of the modes at rest.
   std::vector<Pace> paces;
   double acceleration = 0.0, deceleration = 0.0;
@@ -96,6 +97,10 @@ struct MotionTable {
   // By how much it is ahead of who begins at rest.
   double head_start(double from_speed) const {
     return from_speed > 0.0 ? 0.5 * from_speed / acceleration * kTicksPerSecond : 0.0;
+  }
+
+  double switch_cost(const Objective& objective) const {
+    return has_modes ? objective.mode_switch : 0.0;
   }
 
   double shortest_step() const;  // of the primitives that travel (m)
