@@ -360,6 +360,12 @@ class MotionTable:
     def switch_duration(self, arg: int, /) -> None: ...
 
     @property
+    def has_modes(self) -> bool: ...
+
+    @has_modes.setter
+    def has_modes(self, arg: bool, /) -> None: ...
+
+    @property
     def paces(self) -> list[Pace]:
         """What each mode is, where acceleration is limited."""
 
