@@ -206,19 +206,19 @@ class ConflictBasedSearch:
             },
         )
 
-    def _proven(self, answer: _core.ConflictAnswer, share: float) -> dict[str, str | float] | None:
-        """Return what is known of all plans on the graph, rounded so that it stays true."""
-        if self.params.mode == "adaptive" or not answer.bound > 0.0:
-            return None
-        unit = 1.0 if self.params.paper_cost else 1000.0
-        bound = math.floor(1e6 * answer.bound / unit) / 1e6
+    def _proven(self, answer: _core.ConflictAnswer, share: float) -> dict[str, str | float]:
+        """Return the graph, and what is known of all plans on it, rounded so that it stays true."""
         proven: dict[str, str | float] = {
-            "value": bound,
             "of": "cost" if self.params.paper_cost else "sum_of_costs",
             "graph": self.graph(share),
         }
-        if answer.status == _core.ConflictStatus.SOLVED:
-            proven["factor"] = math.ceil(1e6 * max(answer.cost / unit / bound, 1.0)) / 1e6
+        if self.params.mode != "adaptive":
+            unit = 1.0 if self.params.paper_cost else 1000.0
+            proven["value"] = value = math.floor(1e6 * answer.bound / unit) / 1e6
+            solved = answer.status == _core.ConflictStatus.SOLVED
+            if solved and (value > 0.0 or answer.cost == 0.0):
+                factor = answer.cost / unit / value if value > 0.0 else 1.0
+                proven["factor"] = math.ceil(1e6 * max(factor, 1.0)) / 1e6
         return proven
 
     def _reason(self, answer: _core.ConflictAnswer, concerned: tuple[str, ...]) -> str:

@@ -88,7 +88,7 @@ def _proven(row: Row, graph: str | None) -> float:
 
     A bound for continuous motion holds on every graph, a bound on a graph on that one only.
     """
-    on_graph = row[BOUND] if graph is not None and row.get(GRAPH) == graph else 0.0
+    on_graph = row.get(BOUND) if graph is not None and row.get(GRAPH) == graph else 0.0
     return float(max(row["cost_lower_bound"] or 0.0, on_graph or 0.0))
 
 
