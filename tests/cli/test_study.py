@@ -96,7 +96,7 @@ def test_ctrl_c_keeps_the_rows_and_leaves_soon(tmp_path):
     kept = rows_in(tmp_path / "out")
     assert len(kept) >= 3
     assert all("status" in json.loads(line) for line in kept)
-    assert f"{len(kept)} of 540 rows" in err
+    assert f"{len(kept)} of 630 rows" in err
     assert "Traceback" not in err
     deadline = time.monotonic() + 5.0  # Python's own resource tracker goes a moment later
     while living(process.pid) and time.monotonic() < deadline:
