@@ -14,7 +14,7 @@ import pytest
 
 
 def study(*arguments):
-    """The command of a study that takes a while: 540 plans."""
+    """The command of a study that takes a while: 630 plans."""
     return [sys.executable, "-m", "clearway", "study", "hierarchical-corridor", *arguments]
 
 

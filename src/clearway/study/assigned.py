@@ -21,7 +21,7 @@ SITE = (
     "Sites: the warehouse of 100 m x 60 m with 18 shelves, seeded starts and tasks, 5 s of service "
     "at each task; the paper's own instances are not published, so its comparison is reproduced, "
     "not its numbers.",
-    "Fitness: longest route + all routes + turns, on 1 m cells; even split.",
+    "Fitness: longest route + all routes + turns, on 1 m cells; even split but for ours.",
     "Cost: the paper's eq. 21 of the plan as driven (m, twice while turning, 3 per change of "
     "mode, 0.1 per second of waiting); robots whose last task would shut others in drive on to a "
     "parking bay, which is in the cost.",
