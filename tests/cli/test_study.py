@@ -14,7 +14,7 @@ import pytest
 
 
 def study(*arguments):
-    """The command of a study that takes a while: 630 plans."""
+    """The command of a study that takes a while: 1160 plans."""
     return [sys.executable, "-m", "clearway", "study", "hierarchical-corridor", *arguments]
 
 
@@ -96,7 +96,7 @@ def test_ctrl_c_keeps_the_rows_and_leaves_soon(tmp_path):
     kept = rows_in(tmp_path / "out")
     assert len(kept) >= 3
     assert all("status" in json.loads(line) for line in kept)
-    assert f"{len(kept)} of 630 rows" in err
+    assert f"{len(kept)} of 1160 rows" in err
     assert "Traceback" not in err
     deadline = time.monotonic() + 5.0  # Python's own resource tracker goes a moment later
     while living(process.pid) and time.monotonic() < deadline:
