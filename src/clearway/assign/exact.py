@@ -53,7 +53,10 @@ class ExactAssigner:
         n = len(problem.tasks)
         reasons = []
         if n > MOST_TASKS:
-            reasons.append(f"{n} tasks are more than the {MOST_TASKS} that can be proven optimal")
+            reasons.append(
+                f"{n} tasks are more than the {MOST_TASKS} that can be proven optimal: "
+                "use RuinRecreate, or MemeticApsga for an even split"
+            )
         if problem.is_timed:
             reasons.append("due times and tasks that wait for others are not proven optimal")
         if self.even:

@@ -90,6 +90,11 @@ def _told(run: Run) -> str:
         f"  {len(record.robots)} robots, {done} of {tasks} tasks done, "
         f"the last arrival after {record.makespan:.1f} s"
     )
+    empty = -tasks % len(record.robots)
+    if record.parameters.get("even") and empty:
+        lines.append(
+            f"  even split: padded with {empty} of no cost, so that all have as many tasks"
+        )
     bound = f", lower bound {record.lower_bound:.1f} s" if record.lower_bound else ""
     lines.append(f"  sum of costs {record.sum_of_costs:.1f} s{bound}")
     if run.plan.counters.get("reassigned"):
