@@ -35,7 +35,8 @@ def told(label, found):
     cpu = [seconds for seconds, _ in found]
     plans = [plan for _, plan in found]
     proven = sum(plan.counters["proven"] for plan in plans)
-    gaps = [100.0 * (p.discrete_bound["factor"] - 1.0) for p in plans if p and p.discrete_bound]
+    factors = [p.discrete_bound.get("factor") for p in plans if p]
+    gaps = [100.0 * (factor - 1.0) for factor in factors if factor]
     print(
         f"{label:44} solved {sum(map(bool, plans)):2} of {len(plans)}, proven {proven:2}, "
         f"CPU s median {median(cpu):6.2f} max {max(cpu):6.2f}, "
