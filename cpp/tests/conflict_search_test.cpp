@@ -68,7 +68,8 @@ struct Pair {
         const Rest& rest = routing.rests[other];
         for (Ticks t = rule.from; t <= std::max(rule.from, route.track->settled()); t += 5) {
           const Track::Sight at = route.track->at(t);
-          if (gap(*at.body, at.frame, *rest.body, rest.at, 1.0) < team.required(i)[other]) return true;
+          if (gap(*at.body, at.frame, *rest.body, rest.at, 1.0) < team.required(i)[other])
+            return true;
         }
         return false;
       }

@@ -299,8 +299,7 @@ Ticks TourRun::set_out(const Node& node) {
   if (!begins || leg.not_before <= node.t || node.leg + 1 == static_cast<int>(legs_.size())) {
     return node.t;
   }
-  double ahead =
-      estimate(node.leg, node.x, node.y, theta(node), table_.speed(node.mode));
+  double ahead = estimate(node.leg, node.x, node.y, theta(node), table_.speed(node.mode));
   if (!s_.objective_.time) ahead *= kTicksPerSecond / table_.top_speed;
   const double latest = leg.not_before - kHeadStart * ahead - kSpareTime;
   if (latest <= node.t) return node.t;
