@@ -12,10 +12,10 @@ constexpr double kGreedier = 1.6, kLeastGreed = 0.1;  // from one attempt to the
 }  // namespace
 
 ConflictSearch::ConflictSearch(const std::vector<Model>& models, std::vector<Agent> agents,
-                               const ConflictParams& params, const ConflictProgress& progress)
+                               const ConflictParams& params, ConflictProgress progress)
     : params_(params),
       team_(models, std::move(agents), SearchParams{}, params.objective, params.margin),
-      progress_(progress) {
+      progress_(std::move(progress)) {
   const std::size_t n = team_.size();
   routing_.team = &team_;
   routing_.slot = params.lattice.slot;

@@ -47,7 +47,7 @@ using ConflictProgress =
 class ConflictSearch {
  public:
   ConflictSearch(const std::vector<Model>& models, std::vector<Agent> agents,
-                 const ConflictParams& params, const ConflictProgress& progress);
+                 const ConflictParams& params, ConflictProgress progress);
 
   // To be called once.
   ConflictResult operator()(Budget& budget);
@@ -70,7 +70,7 @@ class ConflictSearch {
 
   ConflictParams params_;
   Team team_;
-  const ConflictProgress& progress_;
+  ConflictProgress progress_;
   Routing routing_;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;
