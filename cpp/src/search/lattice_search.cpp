@@ -9,7 +9,8 @@ namespace clearway {
 namespace {
 
 constexpr std::int32_t kNone = -1;
-constexpr double kEven = 1e-9;  // costs that differ by less are equal
+constexpr double kUnknown = -1.0;  // in place of a bound
+constexpr double kEven = 1e-9;     // costs that differ by less are equal
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kGridCell = 0.5;          // of the way round obstacles (m)
 constexpr std::size_t kStanding = 0xffff;  // in place of a motion's number
@@ -42,6 +43,7 @@ LatticeSearch::LatticeSearch(const Model& model, const std::vector<Leg>& legs, c
   }
   heads_.resize(legs.size());
   distances_.resize(legs.size());
+  bounds_.resize(legs.size());
   overlaps_.resize(rests.size());
   // Whatever turns the body by a radian lasts or costs at least so much.
   bool translates = false;
@@ -80,6 +82,16 @@ bool LatticeSearch::prepare(Heuristic heuristic) {
 
 // Least cost to the goal of a leg: way of the disc in the body round obstacles, and the turn.
 double LatticeSearch::bound_of(int leg, std::int32_t node) {
+  const auto l = static_cast<std::size_t>(leg), n = static_cast<std::size_t>(node);
+  auto& known = bounds_[l];
+  if (known.size() <= n) {
+    known.resize(static_cast<std::size_t>(lattices_[l].num_nodes()), kUnknown);
+  }
+  if (known[n] < 0.0) known[n] = measure(leg, node);
+  return known[n];
+}
+
+double LatticeSearch::measure(int leg, std::int32_t node) {
   const auto l = static_cast<std::size_t>(leg);
   const Pose at = lattices_[l].pose(node);
   const Pose& goal = legs_[l].goal;
@@ -411,6 +423,7 @@ void LatticeSearch::push(Label label) {
   labels_.push_back(label);
   open_.push_back({label.f, 0, index});
   std::push_heap(open_.begin(), open_.end());
+  if (guidance_.xi > 1.0) return;  // greedy search proves nothing
   live_.push_back({label.f, 0, index});
   std::push_heap(live_.begin(), live_.end());
 }
@@ -527,8 +540,8 @@ LatticeSearch::Outcome LatticeSearch::operator()(const std::vector<Rule>& rules,
       std::pop_heap(live_.begin(), live_.end());
       live_.pop_back();
     }
-    if (live_.empty()) return Outcome::kNone;
-    bound = std::max(bound, live_.front().key);
+    if (greedy ? open_.empty() && focal_.empty() : live_.empty()) return Outcome::kNone;
+    if (!greedy) bound = std::max(bound, live_.front().key);
     const double limit = greedy ? kFar : guidance.focus * bound + 1e-7 * unit;
     while (!open_.empty() && open_.front().key <= limit) {
       std::pop_heap(open_.begin(), open_.end());

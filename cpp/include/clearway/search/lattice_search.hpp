@@ -125,6 +125,7 @@ class LatticeSearch {
 
   double estimate(const Label& label);
   double bound_of(int leg, std::int32_t node);
+  double measure(int leg, std::int32_t node);
   double paper_of(int leg, std::int32_t node);
   // Rules made ready for looking up.
   void compile(const std::vector<Rule>& rules);
@@ -157,6 +158,7 @@ class LatticeSearch {
   LatticeParams params_;
   std::vector<Lattice> lattices_;
   std::vector<std::unique_ptr<GoalDistance>> distances_;
+  std::vector<std::vector<double>> bounds_;  // by leg and node, as far as asked for
   std::unique_ptr<ConnectTable> curves_;
   double turn_rate_ = 0.0, turn_extra_ = 0.0;
   std::vector<std::unordered_map<std::uint64_t, Ticks>> overlaps_;  // with each other's rest
