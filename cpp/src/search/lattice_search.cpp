@@ -418,7 +418,7 @@ void LatticeSearch::push(Label label) {
           ? std::clamp(1.0 + (guidance_.xi - 1.0) * h / estimate_at_start_, 1.0, guidance_.xi)
           : guidance_.xi;
   label.f = label.g + xi * h;
-  label.done = false;
+  label.done = label.met = false;
   const auto index = static_cast<std::int32_t>(labels_.size());
   labels_.push_back(label);
   open_.push_back({label.f, 0, index});
@@ -534,6 +534,7 @@ LatticeSearch::Outcome LatticeSearch::operator()(const std::vector<Rule>& rules,
   push(start);
   const bool greedy = guidance.xi > 1.0;
   const double unit = objective_.time ? kTicksPerSecond : 1.0;
+  const double price = guidance.meeting * unit;
   double bound = 0.0;
   while (true) {
     while (!live_.empty() && labels_[static_cast<std::size_t>(live_.front().label)].done) {
@@ -548,10 +549,14 @@ LatticeSearch::Outcome LatticeSearch::operator()(const std::vector<Rule>& rules,
       const std::int32_t index = open_.back().label;
       open_.pop_back();
       Label& label = labels_[static_cast<std::size_t>(index)];
-      if (others) meet(label, encounters);
       if (greedy) {
-        focal_.push_back({label.f + guidance.meeting * unit * label.num_hits, 0, index});
+        // Whom it meets is looked at if it comes up; until then those that its parent met count.
+        if (label.parent != kNone) {
+          label.num_hits = labels_[static_cast<std::size_t>(label.parent)].num_hits;
+        }
+        focal_.push_back({label.f + price * label.num_hits, 0, index});
       } else {
+        if (others) meet(label, encounters);
         focal_.push_back({label.f, label.num_hits, index});
       }
       std::push_heap(focal_.begin(), focal_.end());
@@ -560,6 +565,16 @@ LatticeSearch::Outcome LatticeSearch::operator()(const std::vector<Rule>& rules,
     const std::int32_t index = focal_.back().label;
     focal_.pop_back();
     Label& label = labels_[static_cast<std::size_t>(index)];
+    if (greedy && others && !label.met) {
+      label.met = true;
+      const std::int32_t before = label.num_hits;
+      meet(label, encounters);
+      if (label.num_hits > before) {
+        focal_.push_back({label.f + price * label.num_hits, 0, index});
+        std::push_heap(focal_.begin(), focal_.end());
+        continue;
+      }
+    }
     label.done = true;
     if (label.leg == num_legs()) {
       extract(index, route);

@@ -108,7 +108,7 @@ class LatticeSearch {
     std::int16_t leg, mode;
     std::int32_t num_hits;
     std::int32_t next;  // of the same state
-    bool done;
+    bool done, met;
   };
   struct Entry {
     double key;
