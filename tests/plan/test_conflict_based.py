@@ -10,7 +10,7 @@ from tests.plan.tiny_seeds import FREE, MEETING, NO_PLAN
 from tests.plan.tiny_teams import SPINNER, tiny_team
 
 from clearway.metrics.paper_cost import paper_cost
-from clearway.model import Plan, Problem, Robot, Status
+from clearway.model import Plan, Problem, Robot, Status, to_seconds
 from clearway.plan.conflict_based import ConflictBasedSearch, ConflictParams
 from clearway.protocols import Budget
 
@@ -166,3 +166,13 @@ def test_a_search_that_proves_keeps_its_first_plan_when_time_is_up():
     stopped = search(problem, Budget(seconds=0.3), 0)
     assert greedy.status is stopped.status is Status.SOLVED
     assert judged(problem, stopped) == []
+
+
+@pytest.mark.parametrize("seed", [116, 260])
+def test_service_where_a_robot_rests_anyway_is_no_cost(seed):
+    """It comes after the last arrival: the bound on the graph is not above the sum of arrivals."""
+    problem = tiny_team(seed)
+    made = plan(problem, mode="optimal", paper_cost=False)
+    arrivals = sum(to_seconds(way.end) for way in made.trajectories.values())
+    assert made.discrete_bound["value"] <= arrivals + 1e-6
+    assert made.discrete_bound["factor"] == 1.0

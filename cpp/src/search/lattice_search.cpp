@@ -37,8 +37,15 @@ LatticeSearch::LatticeSearch(const Model& model, const std::vector<Leg>& legs, c
       params_(params) {
   Pose from = start;
   lattices_.reserve(legs.size());
+  // Visits where it rests anyway come after its last arrival: their services are no cost.
+  std::size_t last = legs.size();
+  while (last > 1 && legs[last - 2].goal.x == legs.back().goal.x &&
+         legs[last - 2].goal.y == legs.back().goal.y &&
+         legs[last - 2].goal.theta == legs.back().goal.theta) {
+    --last;
+  }
   for (std::size_t i = 0; i < legs.size(); ++i) {
-    lattices_.emplace_back(model, legs[i], from, i + 1 == legs.size(), objective, params);
+    lattices_.emplace_back(model, legs[i], from, i + 1 >= last, objective, params);
     from = legs[i].goal;
   }
   heads_.resize(legs.size());
