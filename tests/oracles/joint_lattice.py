@@ -215,6 +215,8 @@ class Lattice:
         ways.sort(key=self._cost)
         good = [w for w in ways if not self._begins_with_primitive(w) and self.is_clear(w, pose)]
         last = leg + 1 == len(self.visits)
+        # The last arrival is the first moment of the final rest, however many visits that serves.
+        rests = all(visit.pose == self.visits[-1].pose for visit in self.visits[leg:])
         service = self.whole(to_ticks(self.visits[leg].service))
         for way in self._best(good, len(ways)):
             cost, ticks = self._cost(way), sum(ticks for _, ticks, _ in way)
@@ -223,7 +225,7 @@ class Lattice:
                 twist, slow, mode = way[-1]
                 way = [*way[:-1], (twist, slow + rounded - ticks, mode)]
             if not self.paper:
-                cost = rounded + (0 if last else service)
+                cost = rounded + (0 if rests else service)
             yield Motion(
                 (rounded + service) // self.slot,
                 way[0][2] if way else -1,

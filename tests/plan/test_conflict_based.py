@@ -32,7 +32,7 @@ def plan(problem: Problem, expansions: int | None = None, **params) -> Plan:
 def cost_of(problem: Problem, made: Plan, paper: bool) -> float:
     """What a plan costs by its trajectories: metres of the paper's cost, or seconds."""
     if not paper:
-        return sum(t.stops[-1].arrive for t in made.trajectories.values()) / 1000.0
+        return sum(to_seconds(t.end) for t in made.trajectories.values())
     types = {robot.id: problem.robot_types[robot.type] for robot in problem.robots}
     return sum(paper_cost(t, types[name]) for name, t in made.trajectories.items())
 
