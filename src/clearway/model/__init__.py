@@ -8,9 +8,12 @@ from clearway.model.problem import Problem, RobotState
 from clearway.model.record import PlanRecord, Track
 from clearway.model.robot import FOUR_WHEEL_MODES, Battery, Limits, Robot, RobotType
 from clearway.model.scenario import Scenario
-from clearway.model.site import Obstacle, Site, Zone
+from clearway.model.simulation import Disturbances, Draw, OrderStream, Simulation, Surprise
+from clearway.model.site import Layout, Obstacle, Site, Zone
 from clearway.model.task import LOAD_CHANGE, Order, Task, Visit
+from clearway.model.trace import Trace
 from clearway.model.trajectory import Piece, Stop, Trajectory
+from clearway.model.trip import Commitment, Trip, Wait
 
 __all__ = [
     "FOUR_WHEEL_MODES",
@@ -18,10 +21,15 @@ __all__ = [
     "TICKS_PER_SECOND",
     "Assignment",
     "Battery",
+    "Commitment",
+    "Disturbances",
+    "Draw",
     "Footprint",
+    "Layout",
     "Limits",
     "Obstacle",
     "Order",
+    "OrderStream",
     "Piece",
     "Plan",
     "PlanRecord",
@@ -33,13 +41,18 @@ __all__ = [
     "RobotState",
     "RobotType",
     "Scenario",
+    "Simulation",
     "Site",
     "Status",
     "Stop",
+    "Surprise",
     "Task",
+    "Trace",
     "Track",
     "Trajectory",
+    "Trip",
     "Visit",
+    "Wait",
     "Zone",
     "to_seconds",
     "to_ticks",

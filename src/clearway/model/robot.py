@@ -76,17 +76,24 @@ class Battery:
     """Energy store of a robot type.
 
     ``capacity`` is the running time on a full charge (s). A robot seeks a charger
-    below ``reserve`` (fraction of capacity); too low strands it in a queue.
+    below ``reserve`` (fraction of capacity); too low strands it in a queue. It charges up to
+    ``full`` (fraction); ``charging`` is the time (s) from empty to capacity.
     """
 
     capacity: float
     reserve: float = 0.2
+    charging: float = 500.0
+    full: float = 0.95
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.capacity) and self.capacity > 0.0):
             raise ValueError(f"capacity must be above 0 and finite, got {self.capacity}")
+        if not (math.isfinite(self.charging) and self.charging > 0.0):
+            raise ValueError(f"charging must be above 0 and finite, got {self.charging}")
         if not 0.0 <= self.reserve < 1.0:
             raise ValueError(f"reserve must be in [0, 1), got {self.reserve}")
+        if not self.reserve < self.full <= 1.0:
+            raise ValueError(f"full must be above reserve and at most 1, got {self.full}")
 
 
 @dataclass(frozen=True)
@@ -146,13 +153,19 @@ class RobotType:
 
 @dataclass(frozen=True)
 class Robot:
-    """One robot and its start; ``start_speed`` (m/s) and ``start_mode`` where it is moving."""
+    """One robot and its start; ``start_speed`` (m/s) and ``start_mode`` where it is moving.
+
+    ``energy`` is the level of its battery at the start, in [0, 1].
+    """
 
     id: str
     type: str
     start: Pose
     start_speed: float = 0.0
     start_mode: str | None = None
+    energy: float = 1.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "start", check_pose(self.start, f"start of robot {self.id}"))
+        if not 0.0 <= self.energy <= 1.0:
+            raise ValueError(f"energy of robot {self.id} must be in [0, 1], got {self.energy}")

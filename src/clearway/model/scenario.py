@@ -5,13 +5,17 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from clearway.model.robot import Robot, RobotType
+from clearway.model.simulation import Simulation
 from clearway.model.site import Site
 from clearway.model.task import Order
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """All that a run needs. ``system`` names the composition, ``settings`` are its parameters."""
+    """All that a run needs. ``system`` names the composition, ``settings`` are its parameters.
+
+    ``simulation`` tells what happens while it runs; planning once does not look at it.
+    """
 
     name: str
     site: Site
@@ -21,6 +25,7 @@ class Scenario:
     system: str = "hierarchical"
     settings: Mapping[str, Any] = field(default_factory=dict)
     seed: int = 0
+    simulation: Simulation = field(default_factory=Simulation)
 
     def __post_init__(self) -> None:
         known = {order.task.id for order in self.orders}

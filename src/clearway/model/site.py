@@ -67,13 +67,39 @@ class Zone:
 
 
 @dataclass(frozen=True)
+class Layout:
+    """Lanes and places that a site is made of by rule (see `clearway.world.channels`).
+
+    Parameters
+    ----------
+    rule
+        ``bidirectional``, or one of its one-way counterparts ``compact`` and ``one_way``.
+    blocks
+        Lengths of the blocks of shelves from left to right (cells).
+    bands
+        Pairs of shelf rows from bottom to top.
+    cell
+        Side of a cell (m).
+    """
+
+    rule: str
+    blocks: tuple[int, ...] = (9, 9, 11)
+    bands: int = 7
+    cell: float = 1.0
+
+
+@dataclass(frozen=True)
 class Site:
-    """A confined place: simple polygon ``bounds`` (m), obstacles and zones."""
+    """A confined place: simple polygon ``bounds`` (m), obstacles and zones.
+
+    ``layout`` is the rule that it was made by, where it was.
+    """
 
     bounds: Polygon
     obstacles: tuple[Obstacle, ...] = ()
     zones: tuple[Zone, ...] = ()
     border: Border = "closed"
+    layout: Layout | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bounds", check_polygon(self.bounds, "site bounds"))

@@ -59,15 +59,26 @@ class Visit:
 
 @dataclass(frozen=True)
 class Task:
-    """Visits that one robot does in order; ``robot`` names the only one that may, if any."""
+    """Visits that one robot does in order.
+
+    Parameters
+    ----------
+    robot
+        The only one that may do it, if any.
+    fetches
+        Name of a shelf that is to be brought to a station and stored again. The system chooses
+        where, so such a task has no visits; only systems that move shelves take it.
+    """
 
     id: str
     visits: tuple[Visit, ...]
     robot: str | None = None
+    fetches: str | None = None
 
     def __post_init__(self) -> None:
-        if not self.visits:
-            raise ValueError(f"task {self.id} has no visits")
+        if bool(self.visits) == (self.fetches is not None):
+            what = "has no visits" if not self.visits else "has visits and fetches a shelf"
+            raise ValueError(f"task {self.id} {what}; give either visits or fetches")
 
 
 @dataclass(frozen=True)
@@ -86,6 +97,8 @@ class Order:
     @property
     def visits(self) -> tuple[Visit, ...]:
         """Visits of the task; the first one waits as the order does, the last one is due."""
+        if not self.task.visits:
+            return ()
         first, *rest = self.task.visits
         begin = max(first.not_before, self.release)
         visits = [replace(first, not_before=begin, after=(*first.after, *self.after)), *rest]
