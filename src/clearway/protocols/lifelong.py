@@ -40,6 +40,10 @@ class TripPlanner(Protocol):
         """Return what a robot is committed to; standing at its start before its first trip."""
         ...
 
+    def changed(self) -> Sequence[Commitment]:
+        """Return what the last `plan` has changed of other robots' commitments: times only."""
+        ...
+
     def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         ...
