@@ -1,0 +1,147 @@
+"""From a scenario to what happens in it: orders that arrive, until they are done."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib.metadata import version
+
+from clearway.coordinate import Coordinator, Lifelong, Unsupported
+from clearway.model import Scenario, Trace
+from clearway.protocols import Budget
+from clearway.simulate.arrivals import Arrivals
+from clearway.simulate.disturbed import Disturbed
+from clearway.simulate.events import Event, Record
+from clearway.simulate.fleet import SimulatedFleet, Tell
+from clearway.simulate.motion import RobotMotion
+from clearway.simulate.on_time import OnTime
+from clearway.systems.choose import choose_lifelong
+from clearway.systems.solve import IllegalScenario
+from clearway.validate.legality import check_scenario
+
+Clock = Callable[[], float]
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What has happened, and how it ended.
+
+    ``status`` is ``done``, ``ended`` (its time was up with orders open), ``stopped`` (the
+    budget was), or ``interrupted``.
+    """
+
+    trace: Trace
+    status: str
+
+    def __bool__(self) -> bool:
+        return self.status in ("done", "ended")
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    system: Lifelong | None = None,
+    seed: int | None = None,
+    budget: Budget | None = None,
+    record: Record = lambda event: None,
+    tell: Tell = lambda second, done, left: None,
+    clock: Clock | None = None,
+) -> Simulated:
+    """Run a scenario through time.
+
+    Parameters
+    ----------
+    system
+        Parts to use; absent: those that the scenario names.
+    seed
+        Absent: the scenario's own.
+    budget
+        Seconds of ``clock`` after which it stops.
+    record
+        Takes each event of the trace as it happens.
+    tell
+        Called with the second, orders done and orders open.
+    clock
+        Source of CPU seconds for decisions and the budget; absent: none are told.
+
+    Raises
+    ------
+    IllegalScenario
+        If a start or visit pose cannot be, or no robot can reach a task.
+    ValueError
+        If the system or a setting is unknown, or a part cannot take a feature.
+    """
+    legality = check_scenario(scenario)
+    if not legality:
+        raise IllegalScenario(legality.errors)
+    return run_through_time(
+        scenario, system, seed=seed, budget=budget, record=record, tell=tell, clock=clock
+    )
+
+
+def run_through_time(
+    scenario: Scenario,
+    system: Lifelong | None = None,
+    *,
+    seed: int | None = None,
+    budget: Budget | None = None,
+    record: Record = lambda event: None,
+    tell: Tell = lambda second, done, left: None,
+    clock: Clock | None = None,
+) -> Simulated:
+    """Run a scenario that is known to be legal; see `simulate`."""
+    chosen = system or choose_lifelong(scenario)
+    reasons = chosen.unsupported(scenario)
+    if reasons:
+        raise Unsupported("; ".join(reasons))
+    seed = scenario.seed if seed is None else seed
+    told: list[Event] = []
+
+    def keep(event: Event) -> None:
+        told.append(event)
+        record(event)
+
+    trips = chosen.trips(scenario)
+    fleet = SimulatedFleet(
+        scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
+    )
+    coordinator = Coordinator(scenario.robots, chosen.dispatch(scenario), trips, cpu=clock)
+    is_spent = _is_spent(budget or Budget(), clock)
+    status = None
+    try:
+        while (seen := fleet.observe()) is not None:
+            fleet.execute(coordinator.decide(seen))
+            if is_spent():
+                status = "stopped"
+                break
+    except KeyboardInterrupt:
+        status = "interrupted"
+    status = fleet.close(status)
+    return Simulated(_trace(scenario, chosen, seed, told), status)
+
+
+def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
+    disturbances = scenario.simulation.disturbances
+    if not disturbances:
+        return OnTime(scenario.robots)
+    return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
+
+
+def _is_spent(budget: Budget, clock: Clock | None) -> Callable[[], bool]:
+    if budget.seconds is None or clock is None:
+        return lambda: False
+    end = clock() + budget.seconds
+    return lambda: clock() > end
+
+
+def _trace(scenario: Scenario, system: Lifelong, seed: int, told: list[Event]) -> Trace:
+    return Trace(
+        scenario=scenario.name,
+        system=scenario.system,
+        seed=seed,
+        site=scenario.site,
+        robot_types=dict(scenario.robot_types),
+        robots=scenario.robots,
+        events=tuple(told),
+        is_whole=True,
+        parameters=dict(system.parameters),
+        version=version("clearway"),
+    )
