@@ -5,17 +5,10 @@ Considering Bidirectional Channel", Systems 2024, 12(1), 9.
 """
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Literal
 
-from clearway.assign import LookAhead, NearestIdle, ShelfParams
-from clearway.coordinate import Lifelong
-from clearway.execute import CellConflicts, RightOfWay
-from clearway.model import Scenario
-from clearway.plan import LaneTrips
-from clearway.protocols import Dispatcher, Executor
 from clearway.systems.settings import SettingsError
-from clearway.world.channels import lane_grid
 
 
 @dataclass(frozen=True)

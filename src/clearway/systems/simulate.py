@@ -1,7 +1,7 @@
 """From a scenario to what happens in it: orders that arrive, until they are done."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 
 from clearway.coordinate import Coordinator, Lifelong, Unsupported
@@ -18,14 +18,20 @@ from clearway.systems.solve import IllegalScenario
 from clearway.validate.legality import check_scenario
 
 Clock = Callable[[], float]
+Recorder = Callable[[Trace], Record]
+
+
+def _nowhere(header: Trace) -> Record:
+    return lambda event: None
 
 
 @dataclass(frozen=True)
 class Simulated:
     """What has happened, and how it ended.
 
-    ``status`` is ``done``, ``ended`` (its time was up with orders open), ``stopped`` (the
-    budget was), or ``interrupted``.
+    ``status`` is ``done``, ``ended`` (its time was up with orders open or to come), ``stuck``
+    (orders are open, but nothing happens any more), ``stopped`` (the budget was spent), or
+    ``interrupted``.
     """
 
     trace: Trace
@@ -41,7 +47,7 @@ def simulate(
     system: Lifelong | None = None,
     seed: int | None = None,
     budget: Budget | None = None,
-    record: Record = lambda event: None,
+    record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
     clock: Clock | None = None,
 ) -> Simulated:
@@ -56,7 +62,8 @@ def simulate(
     budget
         Seconds of ``clock`` after which it stops.
     record
-        Takes each event of the trace as it happens.
+        Called with the trace's header, events empty; returns what takes each event as it
+        happens.
     tell
         Called with the second, orders done and orders open.
     clock
@@ -83,7 +90,7 @@ def run_through_time(
     *,
     seed: int | None = None,
     budget: Budget | None = None,
-    record: Record = lambda event: None,
+    record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
     clock: Clock | None = None,
 ) -> Simulated:
@@ -93,11 +100,13 @@ def run_through_time(
     if reasons:
         raise Unsupported("; ".join(reasons))
     seed = scenario.seed if seed is None else seed
+    header = _header(scenario, chosen, seed)
     told: list[Event] = []
+    write = record(header)
 
     def keep(event: Event) -> None:
         told.append(event)
-        record(event)
+        write(event)
 
     trips = chosen.trips(scenario)
     fleet = SimulatedFleet(
@@ -115,7 +124,7 @@ def run_through_time(
     except KeyboardInterrupt:
         status = "interrupted"
     status = fleet.close(status)
-    return Simulated(_trace(scenario, chosen, seed, told), status)
+    return Simulated(replace(header, events=tuple(told), is_whole=True), status)
 
 
 def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
@@ -132,7 +141,7 @@ def _is_spent(budget: Budget, clock: Clock | None) -> Callable[[], bool]:
     return lambda: clock() > end
 
 
-def _trace(scenario: Scenario, system: Lifelong, seed: int, told: list[Event]) -> Trace:
+def _header(scenario: Scenario, system: Lifelong, seed: int) -> Trace:
     return Trace(
         scenario=scenario.name,
         system=scenario.system,
@@ -140,8 +149,8 @@ def _trace(scenario: Scenario, system: Lifelong, seed: int, told: list[Event]) -
         site=scenario.site,
         robot_types=dict(scenario.robot_types),
         robots=scenario.robots,
-        events=tuple(told),
-        is_whole=True,
+        events=(),
+        is_whole=False,
         parameters=dict(system.parameters),
         version=version("clearway"),
     )
