@@ -4,9 +4,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from clearway.model import Layout
 from clearway.world.lane_grid import (
@@ -17,7 +14,6 @@ from clearway.world.lane_grid import (
     LONGITUDINAL,
     NORTH,
     SOUTH,
-    STEPS,
     T_CROSSING,
     VOID,
     WEST,
@@ -25,6 +21,7 @@ from clearway.world.lane_grid import (
     Endpoint,
     LaneGrid,
 )
+from clearway.world.move_map import cut_off
 
 BESIDE = 2  # rows of shelves between two channels, one opening onto each
 
@@ -164,37 +161,10 @@ def _assert_facts(layout: Layout, grid: LaneGrid) -> None:
     if (layout.blocks, layout.bands) == (PAPER.blocks, PAPER.bands):
         counts = tuple(len(grid.of_kind(kind)) for kind in ("shelf", "station", "charger"))
         assert counts == PAPER_COUNTS[layout.rule], counts
-    left_out = ~one_component(grid)
-    if rule.right_wall:
-        assert not left_out.any()
-    else:
-        # Nothing leads round the far end of the last block: one turns in aprons only.
-        last = grid.region == HORIZONTAL
-        last[:, : grid.size[0] - layout.blocks[-1]] = False
-        assert (left_out == last).all()
-
-
-def one_component(grid: LaneGrid) -> NDArray[np.bool_]:
-    """Mark what is not cut off by lanes: the largest strongly connected part, and no channel.
-
-    Returns
-    -------
-    Shape ``(height, width)``: false for channel cells outside that part only.
-    """
-    channel = grid.region >= HORIZONTAL
-    height, width = channel.shape
-    number = np.arange(height * width).reshape(height, width)
-    tails, heads = [], []
-    for bit, (dx, dy) in STEPS.items():
-        y, x = np.nonzero(channel & ((grid.lanes & bit) != 0))
-        inside = (0 <= x + dx) & (x + dx < width) & (0 <= y + dy) & (y + dy < height)
-        y, x = y[inside], x[inside]
-        leads = channel[y + dy, x + dx]
-        tails.append(number[y, x][leads])
-        heads.append(number[y + dy, x + dx][leads])
-    tail, head = np.concatenate(tails), np.concatenate(heads)
-    graph = coo_array((np.ones(len(tail)), (tail, head)), shape=(channel.size, channel.size))
-    _, label = connected_components(graph, connection="strong")
-    label = np.asarray(label).reshape(height, width)
-    largest = np.bincount(label[channel]).argmax()
-    return np.asarray((label == largest) | ~channel)
+    left_out = cut_off(grid)
+    if not rule.right_wall:
+        # Nothing leads round the far end of the last block: robots turn round in aprons there.
+        last = left_out[:, -layout.blocks[-1] :]
+        assert np.count_nonzero(last) == rule.breadth * (layout.bands + 1) * layout.blocks[-1]
+        last[:] = False
+    assert not left_out.any()
