@@ -1,11 +1,12 @@
 """Warehouses of shelves between channels, made by rule: the layouts of system B's paper."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
-from clearway.model import Layout
+from clearway.model import Battery, Footprint, Layout, Limits, Polygon, RobotType, Site, Zone
 from clearway.world.lane_grid import (
     CROSSING,
     EAST,
@@ -98,6 +99,60 @@ def lane_grid(layout: Layout) -> LaneGrid:
     )
     _assert_facts(layout, grid)
     return grid
+
+
+def site_of(layout: Layout) -> Site:
+    """Return a layout as a site: a zone of one cell for each endpoint, its pose in the middle.
+
+    Raises
+    ------
+    ValueError
+        As `lane_grid`.
+    """
+    grid = lane_grid(layout)
+    width, height = grid.size
+    zones = tuple(
+        Zone(point.name, point.kind, _box(grid, point.cell, (1, 1)), grid.centre(point.cell))
+        for point in grid.endpoints.values()
+    )
+    return Site(_box(grid, (0, 0), (width, height)), zones=zones, layout=layout)
+
+
+def agv_type(layout: Layout, turn_seconds: float = 0.0) -> RobotType:
+    """Return the robot of system B: a square that turns within its cell, one cell a second.
+
+    Its diagonal is 0.99 of a cell. A full battery lasts for 5000 s.
+
+    Parameters
+    ----------
+    turn_seconds
+        For a turn by 90 degrees; 0: turning takes no time.
+
+    Raises
+    ------
+    ValueError
+        If the time is below 0.
+    """
+    if turn_seconds < 0.0:
+        raise ValueError(f"turn_seconds must be 0 or above, got {turn_seconds}")
+    return RobotType(
+        name="agv",
+        footprint=Footprint.rectangle(0.7 * layout.cell, 0.7 * layout.cell),
+        kinematics="differential",
+        limits=Limits(
+            speed=layout.cell,
+            reverse_speed=0.0,
+            yaw_rate=math.pi / 2.0 / turn_seconds if turn_seconds else None,
+        ),
+        battery=Battery(capacity=5000.0, reserve=0.2, charging=500.0, full=0.95),
+    )
+
+
+def _box(grid: LaneGrid, cell: Cell, size: tuple[int, int]) -> Polygon:
+    """Return the rectangle of cells whose lower left one is given."""
+    x0, y0 = cell[0] * grid.cell, cell[1] * grid.cell
+    x1, y1 = (cell[0] + size[0]) * grid.cell, (cell[1] + size[1]) * grid.cell
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
 
 
 def _check(layout: Layout) -> None:

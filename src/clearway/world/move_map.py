@@ -41,5 +41,5 @@ def cut_off(grid: LaneGrid) -> NDArray[np.bool_]:
     head = np.concatenate([tails[bit] + ahead[bit] for bit in ahead])
     graph = coo_array((np.ones(len(tail)), (tail, head)), shape=(moves.size, moves.size))
     parts = connected_components(graph, connection="strong")[1].reshape(channel.shape)
-    largest = int(np.bincount(parts[channel]).argmax())
-    return np.logical_and(channel, parts != largest)
+    outside: NDArray[np.bool_] = parts != np.bincount(parts[channel]).argmax()
+    return channel & outside
