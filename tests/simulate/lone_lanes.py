@@ -74,8 +74,13 @@ class AlongLanes:
     def commitment(self, robot: str) -> Commitment:
         return self._commitments[robot]
 
+    @property
     def changed(self) -> Sequence[Commitment]:
         return ()
+
+    @property
+    def counters(self) -> Mapping[str, int]:
+        return {"expansions": len(self.efforts)}
 
     def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
         raise NotImplementedError

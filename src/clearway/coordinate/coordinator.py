@@ -100,7 +100,7 @@ class Coordinator:
             told.append(outcome)
             if isinstance(outcome.outcome, Commitment):
                 changed[choice.trip.robot] = outcome.outcome
-                for other in self._trips.changed():
+                for other in self._trips.changed:
                     changed[other.robot] = other
             elif outcome.outcome.for_good and choice.trip.order is not None:
                 failed[choice.trip.order] = outcome.outcome.reason

@@ -40,8 +40,14 @@ class TripPlanner(Protocol):
         """Return what a robot is committed to; standing at its start before its first trip."""
         ...
 
+    @property
     def changed(self) -> Sequence[Commitment]:
-        """Return what the last `plan` has changed of other robots' commitments: times only."""
+        """What the last `plan` has changed of other robots' commitments: times only."""
+        ...
+
+    @property
+    def counters(self) -> Mapping[str, int]:
+        """What planning has come to so far: ``expansions``, and what else the planner counts."""
         ...
 
     def retime(self, trajectories: Mapping[str, Trajectory]) -> None:

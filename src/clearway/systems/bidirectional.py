@@ -45,3 +45,56 @@ class BidirectionalSettings:
         for name in ("residence", "lift", "lower"):
             if not (math.isfinite(getattr(self, name)) and getattr(self, name) >= 0.0):
                 raise SettingsError(f"system.{name}", getattr(self, name), "write 0 or above")
+
+
+def bidirectional(settings: BidirectionalSettings) -> Lifelong:
+    """Return system B as chosen."""
+
+    def grid_of(scenario: Scenario) -> LaneGrid:
+        assert scenario.site.layout is not None  # else unsupported
+        return lane_grid(scenario.site.layout)
+
+    def trips(scenario: Scenario) -> LaneTrips:
+        grid = grid_of(scenario)
+        kind = scenario.type_of(scenario.robots[0])
+        moves = DynamicMap(grid, settings.map_mode)
+        return LaneTrips(grid, scenario.robots, kind, moves, rules=settings.rules)
+
+    def dispatch(scenario: Scenario) -> Dispatcher:
+        params = ShelfParams(
+            residence=settings.residence, lift=settings.lift, lower=settings.lower
+        )
+        if settings.dispatch == "ahead":
+            return LookAhead(scenario, params)
+        by_route = RouteLengths(grid_of(scenario), settings.map_mode)
+        return NearestIdle(
+            scenario, params, by_route if settings.nearest == "route" else None
+        )
+
+    def execute(scenario: Scenario) -> Executor:
+        return RightOfWay(CellConflicts(grid_of(scenario)))
+
+    return Lifelong(
+        name="bidirectional",
+        dispatch=dispatch,
+        trips=trips,
+        execute=execute,
+        unsupported=_unsupported,
+        parameters=asdict(settings),
+    )
+
+
+def _unsupported(scenario: Scenario) -> tuple[str, ...]:
+    """Return what in a scenario system B cannot take."""
+    reasons = []
+    if scenario.site.layout is None:
+        known = ", ".join(RULES)
+        reasons.append(f"site: system B drives on lanes; give it a layout (rule: {known})")
+    if len({robot.type for robot in scenario.robots}) > 1:
+        reasons.append("robots: all must be of one type")
+    reasons += [
+        f"task {order.task.id}: has visits of its own; system B fetches shelves (fetches = 'g1')"
+        for order in scenario.orders
+        if order.task.fetches is None
+    ]
+    return tuple(reasons)

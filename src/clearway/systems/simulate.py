@@ -1,12 +1,12 @@
 """From a scenario to what happens in it: orders that arrive, until they are done."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 
 from clearway.coordinate import Coordinator, Lifelong, Unsupported
 from clearway.model import Scenario, Trace
-from clearway.protocols import Budget
+from clearway.protocols import Budget, TripPlanner
 from clearway.simulate.arrivals import Arrivals
 from clearway.simulate.disturbed import Disturbed
 from clearway.simulate.events import Event, Record
@@ -36,6 +36,7 @@ class Simulated:
 
     trace: Trace
     status: str
+    counters: Mapping[str, int] = field(default_factory=dict)
 
     def __bool__(self) -> bool:
         return self.status in ("done", "ended")
@@ -60,7 +61,7 @@ def simulate(
     seed
         Absent: the scenario's own.
     budget
-        Seconds of ``clock`` after which it stops.
+        Seconds of ``clock``, or expansions of the planner, after which it stops.
     record
         Called with the trace's header, events empty; returns what takes each event as it
         happens.
@@ -113,7 +114,7 @@ def run_through_time(
         scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
     )
     coordinator = Coordinator(scenario.robots, chosen.dispatch(scenario), trips, cpu=clock)
-    is_spent = _is_spent(budget or Budget(), clock)
+    is_spent = _is_spent(budget or Budget(), clock, trips)
     status = None
     try:
         while (seen := fleet.observe()) is not None:
@@ -124,7 +125,8 @@ def run_through_time(
     except KeyboardInterrupt:
         status = "interrupted"
     status = fleet.close(status)
-    return Simulated(replace(header, events=tuple(told), is_whole=True), status)
+    trace = replace(header, events=tuple(told), is_whole=True)
+    return Simulated(trace, status, dict(trips.counters))
 
 
 def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
@@ -134,11 +136,16 @@ def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
     return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
 
 
-def _is_spent(budget: Budget, clock: Clock | None) -> Callable[[], bool]:
-    if budget.seconds is None or clock is None:
-        return lambda: False
-    end = clock() + budget.seconds
-    return lambda: clock() > end
+def _is_spent(budget: Budget, clock: Clock | None, trips: TripPlanner) -> Callable[[], bool]:
+    end = None if budget.seconds is None or clock is None else clock() + budget.seconds
+    most = budget.expansions
+
+    def is_spent() -> bool:
+        if most is not None and trips.counters["expansions"] >= most:
+            return True
+        return end is not None and clock is not None and clock() > end
+
+    return is_spent
 
 
 def _header(scenario: Scenario, system: Lifelong, seed: int) -> Trace:
