@@ -5,10 +5,19 @@ Considering Bidirectional Channel", Systems 2024, 12(1), 9.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Literal
 
+from clearway.assign import LookAhead, NearestIdle, ShelfParams
+from clearway.coordinate import Lifelong
+from clearway.execute import CellConflicts, RightOfWay
+from clearway.model import Scenario
+from clearway.plan import LaneTrips
+from clearway.protocols import Dispatcher, Executor
 from clearway.systems.settings import SettingsError
+from clearway.world.channels import RULES, lane_grid
+from clearway.world.dynamic_map import DynamicMap
+from clearway.world.lane_grid import LaneGrid
 
 
 @dataclass(frozen=True)
@@ -61,15 +70,11 @@ def bidirectional(settings: BidirectionalSettings) -> Lifelong:
         return LaneTrips(grid, scenario.robots, kind, moves, rules=settings.rules)
 
     def dispatch(scenario: Scenario) -> Dispatcher:
-        params = ShelfParams(
-            residence=settings.residence, lift=settings.lift, lower=settings.lower
-        )
+        params = ShelfParams(residence=settings.residence, lift=settings.lift, lower=settings.lower)
         if settings.dispatch == "ahead":
             return LookAhead(scenario, params)
         by_route = RouteLengths(grid_of(scenario), settings.map_mode)
-        return NearestIdle(
-            scenario, params, by_route if settings.nearest == "route" else None
-        )
+        return NearestIdle(scenario, params, by_route if settings.nearest == "route" else None)
 
     def execute(scenario: Scenario) -> Executor:
         return RightOfWay(CellConflicts(grid_of(scenario)))
