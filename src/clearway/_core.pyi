@@ -929,6 +929,20 @@ def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) ->
     Ticks that each leg takes with nobody else on the site; -1 where no way is found.
     """
 
+class RouteSearch:
+    """Best routes over square cells with legal moves."""
+
+    def __init__(self, lanes: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], step: int, turn: int) -> None: ...
+
+    def __call__(self, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], start: int, goal: int, heading: int) -> list[int]:
+        """
+        Cells (numbered row by row) from start to goal; none where there is no way.
+        """
+
+    @property
+    def expansions(self) -> int:
+        """Nodes expanded in the last search."""
+
 class AssignmentCosts:
     """What it costs robots to go from task to task."""
 

@@ -1,14 +1,12 @@
 """Warehouses of shelves between channels, made by rule: the layouts of system B's paper."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
-from clearway.model import Layout
+from clearway.model import Battery, Footprint, Layout, Limits, Polygon, RobotType, Site, Zone
 from clearway.world.lane_grid import (
     CROSSING,
     EAST,
@@ -17,7 +15,6 @@ from clearway.world.lane_grid import (
     LONGITUDINAL,
     NORTH,
     SOUTH,
-    STEPS,
     T_CROSSING,
     VOID,
     WEST,
@@ -25,6 +22,7 @@ from clearway.world.lane_grid import (
     Endpoint,
     LaneGrid,
 )
+from clearway.world.move_map import cut_off
 
 BESIDE = 2  # rows of shelves between two channels, one opening onto each
 
@@ -103,6 +101,60 @@ def lane_grid(layout: Layout) -> LaneGrid:
     return grid
 
 
+def site_of(layout: Layout) -> Site:
+    """Return a layout as a site: a zone of one cell for each endpoint, its pose in the middle.
+
+    Raises
+    ------
+    ValueError
+        As `lane_grid`.
+    """
+    grid = lane_grid(layout)
+    width, height = grid.size
+    zones = tuple(
+        Zone(point.name, point.kind, _box(grid, point.cell, (1, 1)), grid.centre(point.cell))
+        for point in grid.endpoints.values()
+    )
+    return Site(_box(grid, (0, 0), (width, height)), zones=zones, layout=layout)
+
+
+def agv_type(layout: Layout, turn_seconds: float = 0.0) -> RobotType:
+    """Return the robot of system B: a square that turns within its cell, one cell a second.
+
+    Its diagonal is 0.99 of a cell. A full battery lasts for 5000 s.
+
+    Parameters
+    ----------
+    turn_seconds
+        For a turn by 90 degrees; 0: turning takes no time.
+
+    Raises
+    ------
+    ValueError
+        If the time is below 0.
+    """
+    if turn_seconds < 0.0:
+        raise ValueError(f"turn_seconds must be 0 or above, got {turn_seconds}")
+    return RobotType(
+        name="agv",
+        footprint=Footprint.rectangle(0.7 * layout.cell, 0.7 * layout.cell),
+        kinematics="differential",
+        limits=Limits(
+            speed=layout.cell,
+            reverse_speed=0.0,
+            yaw_rate=math.pi / 2.0 / turn_seconds if turn_seconds else None,
+        ),
+        battery=Battery(capacity=5000.0, reserve=0.2, charging=500.0, full=0.95),
+    )
+
+
+def _box(grid: LaneGrid, cell: Cell, size: tuple[int, int]) -> Polygon:
+    """Return the rectangle of cells whose lower left one is given."""
+    x0, y0 = cell[0] * grid.cell, cell[1] * grid.cell
+    x1, y1 = (cell[0] + size[0]) * grid.cell, (cell[1] + size[1]) * grid.cell
+    return (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+
+
 def _check(layout: Layout) -> None:
     if layout.rule not in RULES:
         raise ValueError(f"layout.rule must be one of {', '.join(RULES)}, got {layout.rule!r}")
@@ -164,37 +216,10 @@ def _assert_facts(layout: Layout, grid: LaneGrid) -> None:
     if (layout.blocks, layout.bands) == (PAPER.blocks, PAPER.bands):
         counts = tuple(len(grid.of_kind(kind)) for kind in ("shelf", "station", "charger"))
         assert counts == PAPER_COUNTS[layout.rule], counts
-    left_out = ~one_component(grid)
-    if rule.right_wall:
-        assert not left_out.any()
-    else:
-        # Nothing leads round the far end of the last block: one turns in aprons only.
-        last = grid.region == HORIZONTAL
-        last[:, : grid.size[0] - layout.blocks[-1]] = False
-        assert (left_out == last).all()
-
-
-def one_component(grid: LaneGrid) -> NDArray[np.bool_]:
-    """Mark what is not cut off by lanes: the largest strongly connected part, and no channel.
-
-    Returns
-    -------
-    Shape ``(height, width)``: false for channel cells outside that part only.
-    """
-    channel = grid.region >= HORIZONTAL
-    height, width = channel.shape
-    number = np.arange(height * width).reshape(height, width)
-    tails, heads = [], []
-    for bit, (dx, dy) in STEPS.items():
-        y, x = np.nonzero(channel & ((grid.lanes & bit) != 0))
-        inside = (0 <= x + dx) & (x + dx < width) & (0 <= y + dy) & (y + dy < height)
-        y, x = y[inside], x[inside]
-        leads = channel[y + dy, x + dx]
-        tails.append(number[y, x][leads])
-        heads.append(number[y + dy, x + dx][leads])
-    tail, head = np.concatenate(tails), np.concatenate(heads)
-    graph = coo_array((np.ones(len(tail)), (tail, head)), shape=(channel.size, channel.size))
-    _, label = connected_components(graph, connection="strong")
-    label = np.asarray(label).reshape(height, width)
-    largest = np.bincount(label[channel]).argmax()
-    return np.asarray((label == largest) | ~channel)
+    left_out = cut_off(grid)
+    if not rule.right_wall:
+        # Nothing leads round the far end of the last block: robots turn round in aprons there.
+        last = left_out[:, -layout.blocks[-1] :]
+        assert np.count_nonzero(last) == rule.breadth * (layout.bands + 1) * layout.blocks[-1]
+        last[:] = False
+    assert not left_out.any()
