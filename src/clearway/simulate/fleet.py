@@ -56,6 +56,7 @@ class SimulatedFleet:
         self._rest_at = {robot.id: 0 for robot in robots}
         self._objects: dict[str, tuple[str, ...]] = {robot.id: () for robot in robots}
         self._idle_for: dict[str, tuple[str, ...]] = {}
+        self._left_idle = [robot.id for robot in robots]  # since the last decision
         self._surprises = sorted(scenario.simulation.surprises, key=lambda one: one.at)
         self._num_found = 0
         until = scenario.simulation.until
@@ -207,6 +208,7 @@ class SimulatedFleet:
             return False
         self._account(robot, trip.visits)
         self._trips[robot] = None
+        self._left_idle.append(robot)
         self._charge(one.tick, robot, trip)
         return True
 
@@ -241,6 +243,8 @@ class SimulatedFleet:
 
     def _begin(self, robot: str, trip: Trip | None) -> None:
         self._trips[robot] = trip
+        if trip is None:
+            self._left_idle.append(robot)
         self._since[robot], self._moved[robot] = self._now, 0
 
     def _flush(self, robot: str) -> None:
@@ -277,22 +281,17 @@ class SimulatedFleet:
 
     def _tell_idle(self, decision: Decision) -> None:
         """Tell what robots without a trip wait for, where that has changed."""
-        refused: dict[str, tuple[tuple[str, ...], str]] = {}
+        causes: dict[str, tuple[tuple[str, ...], str]] = {
+            robot: (("order",), "nothing to do") for robot in self._left_idle
+        }
+        self._left_idle = []
         for told in decision.told:
-            if not isinstance(told.outcome, Commitment):
-                outcome = told.outcome
-                refused[told.choice.trip.robot] = (outcome.causes, outcome.reason)
-        for robot, trip in self._trips.items():
-            if trip is not None:
+            robot = told.choice.trip.robot
+            if isinstance(told.outcome, Commitment):
                 self._idle_for.pop(robot, None)
-                continue
-            if robot in refused:
-                causes, because = refused[robot]
-                causes = causes or ("plan",)
-            elif robot in self._idle_for:
-                continue
-            else:
-                causes, because = ("order",), "nothing to do"
-            if self._idle_for.get(robot) != causes:
-                self._idle_for[robot] = causes
-                self._record(events.wait(self._now, robot, causes, None, because))
+            elif self._trips[robot] is None:
+                causes[robot] = (told.outcome.causes or ("plan",), told.outcome.reason)
+        for robot, (waits_for, because) in causes.items():
+            if self._trips[robot] is None and self._idle_for.get(robot) != waits_for:
+                self._idle_for[robot] = waits_for
+                self._record(events.wait(self._now, robot, waits_for, None, because))
