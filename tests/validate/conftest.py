@@ -9,7 +9,7 @@ HERE = Path(__file__).parent
 
 
 def load(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"tests_{path.stem}", path)
+    spec = importlib.util.spec_from_file_location(f"tests_{path.parent.stem}_{path.stem}", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
@@ -20,6 +20,12 @@ def load(path: Path) -> ModuleType:
 def by_hand() -> ModuleType:
     """The small plans of tests/data, and what they are built with."""
     return load(HERE.parent / "data" / "bad_plans" / "make.py")
+
+
+@pytest.fixture(scope="session")
+def traces() -> ModuleType:
+    """The small traces of tests/data, and what they are built with."""
+    return load(HERE.parent / "data" / "bad_traces" / "make.py")
 
 
 @pytest.fixture(scope="session")
