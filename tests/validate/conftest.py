@@ -4,12 +4,13 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from tests.data.bad_traces import make
 
 HERE = Path(__file__).parent
 
 
 def load(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"tests_{path.parent.stem}_{path.stem}", path)
+    spec = importlib.util.spec_from_file_location(f"tests_{path.stem}", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
@@ -25,7 +26,7 @@ def by_hand() -> ModuleType:
 @pytest.fixture(scope="session")
 def traces() -> ModuleType:
     """The small traces of tests/data, and what they are built with."""
-    return load(HERE.parent / "data" / "bad_traces" / "make.py")
+    return make
 
 
 @pytest.fixture(scope="session")
