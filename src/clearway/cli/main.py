@@ -91,8 +91,8 @@ def _parser() -> argparse.ArgumentParser:
     )
     check.add_argument("scenario", metavar="SCENARIO.toml")
     check.add_argument("--out", metavar="DIR/", help="draw the site into this folder")
-    validate = commands.add_parser("validate", parents=[talk], help="judge a plan")
-    validate.add_argument("path", metavar="RUN/ or plan.json")
+    validate = commands.add_parser("validate", parents=[talk], help="judge a plan or a trace")
+    validate.add_argument("path", metavar="RUN/, plan.json or trace.jsonl")
     commands.add_parser("schema", parents=[talk], help="JSON Schema of scenario files")
     bench = commands.add_parser(
         "bench", parents=[talk, search], help="a set of instances, one row each"
