@@ -1,11 +1,14 @@
 """Checks of an order against the site and the fleet that are to serve it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any, Final
 
 from clearway.formats.scenario_error import Problem, closest
 from clearway.formats.scenario_work import OrderTable, VisitTable
 from clearway.model import LOAD_CHANGE, RobotType, Scenario
 from clearway.model.task import Load
+
+_NAMING: Final = {"robot", "fetches", "station", "visits"}
 
 
 class OrderCheck:
@@ -13,30 +16,38 @@ class OrderCheck:
 
     def __init__(self, scenario: Scenario) -> None:
         self.poses = {z.name: z.pose for z in scenario.site.zones if z.pose is not None}
-        self._shelves = {zone.name for zone in scenario.site.zones_of("shelf")}
         self._robots = {robot.id: robot for robot in scenario.robots}
         self._kinds = scenario.robot_types
+        shelves = {zone.name for zone in scenario.site.zones_of("shelf")}
+        self._known: tuple[tuple[str, Collection[str], str], ...] = (
+            ("robot", self._robots, "unknown robot"),
+            ("fetches", shelves, "no shelf has this name"),
+            ("station", self.poses, "no zone with a pose has this name"),
+        )
 
     def __call__(self, order: OrderTable, where: str = "") -> Iterator[Problem]:
         """Yield all that is wrong; keys begin with ``where``, if given."""
-        if order.robot is not None and order.robot not in self._robots:
-            mend = closest(order.robot, self._robots)
-            yield Problem(_at(where, "robot"), order.robot, "unknown robot", mend)
-            return
-        if order.fetches is not None and order.fetches not in self._shelves:
-            mend = closest(order.fetches, self._shelves)
-            yield Problem(_at(where, "fetches"), order.fetches, "no shelf has this name", mend)
+        yield from self.names(order.model_dump(include=_NAMING), where)
         stops = order.stops()
         names = [
             where if order.visits is None else _at(where, f"visits[{j}]") for j in range(len(stops))
         ]
         for visit, at in zip(stops, names, strict=True):
-            if visit.station is not None and visit.station not in self.poses:
-                mend = closest(visit.station, self.poses)
-                what = "no zone with a pose has this name"
-                yield Problem(_at(at, "station"), visit.station, what, mend)
             yield from self._together(visit, order, at)
-        yield from self._able(order, names)
+        if order.robot is None or order.robot in self._robots:
+            yield from self._able(order, names)
+
+    def names(self, keys: Mapping[str, Any], where: str = "") -> Iterator[Problem]:
+        """Yield the names that nothing has among the keys of an order, right or wrong else."""
+        for key, known, what in self._known:
+            name = keys.get(key)
+            if isinstance(name, str) and name not in known:
+                yield Problem(_at(where, key), name, what, closest(name, known))
+        visits = keys.get("visits")
+        for j, visit in enumerate(visits if isinstance(visits, list) else ()):
+            if isinstance(visit, dict):
+                at = _at(where, f"visits[{j}]")
+                yield from self.names({"station": visit.get("station")}, at)
 
     def _together(self, visit: VisitTable, order: OrderTable, at: str) -> Iterator[Problem]:
         for k, other in enumerate(visit.together):

@@ -95,22 +95,23 @@ def parse_order(
 def _order(
     keys: dict[str, Any], check: OrderCheck, known: Mapping[str, str], now: float = 0.0
 ) -> Order:
-    name = "order"
-    if problems := find_non_numbers(keys):
-        raise OrderFileError(name, problems)
-    try:
-        table = OrderTable.model_validate(keys)
-    except ValidationError as error:
-        raise OrderFileError(name, [translate(e) for e in error.errors()]) from error
-    problems = list(check(table))
-    if table.id in known:
-        what = f"is already the id of the order in {known[table.id]}"
-        problems.append(Problem("id", table.id, what, "give each its own"))
-    if table.release < now:
+    problems = find_non_numbers(keys)
+    table = None
+    if not problems:
+        try:
+            table = OrderTable.model_validate(keys)
+        except ValidationError as error:
+            problems = [translate(e) for e in error.errors()]
+    problems += check.names(keys) if table is None else check(table)
+    name = keys.get("id")
+    if isinstance(name, str) and name in known:
+        what = f"is already the id of the order in {known[name]}"
+        problems.append(Problem("id", name, what, "give each its own"))
+    if table is not None and table.release < now:
         what = f"is before now, which is {now:g} s"
         problems.append(Problem("release", table.release, what, "leave it out: released at once"))
-    if problems:
-        raise OrderFileError(name, problems)
+    if problems or table is None:
+        raise OrderFileError("order", problems)
     return table.built(check.poses)
 
 
@@ -145,8 +146,10 @@ def _parse_lines(lines: Sequence[tuple[int, str]]) -> tuple[list[Entry], list[Pr
             problems.append(Problem(f"line {number}", text, what, "write a flat object"))
             continue
         except ValueError as error:
+            where = f" at column {error.colno}" if isinstance(error, json.JSONDecodeError) else ""
+            why = error.msg if isinstance(error, json.JSONDecodeError) else error
             mend = 'write one whole object in this line: {"id": "o1", "fetches": "g1"}'
-            problems.append(Problem(f"line {number}", text, f"is broken ({error})", mend))
+            problems.append(Problem(f"line {number}", text, f"is broken{where} ({why})", mend))
             continue
         if not isinstance(keys, dict):
             mend = 'write an object: {"id": "o1", "fetches": "g1"}'
@@ -185,6 +188,8 @@ def write_orders(path: Path | str, orders: Sequence[Order]) -> None:
         If an order has what such a file cannot hold.
     """
     path = Path(path)
+    if not orders:
+        raise ValueError(f"{path}: there are no orders to write; an empty file is refused")
     if path.suffix.lower() == ".jsonl":
         rows = [json.dumps(_keys(order), ensure_ascii=False) for order in orders]
         write_text(path, "".join(f"{row}\n" for row in rows))

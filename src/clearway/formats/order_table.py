@@ -130,6 +130,10 @@ def _add(
         what = "says in two ways where to go" if places else "does not say where to go"
         problems.append(Problem(where, ABSENT, what, mend))
         return
+    if pose and not (pose.keys() >= {"x", "y"} and ("theta" in pose) != ("theta_deg" in pose)):
+        what, mend = "needs x, y and one of theta and theta_deg", "fill in all three"
+        problems.append(Problem(where, pose, what, mend))
+        return
     own = {key: values[key] for key in OF_AN_ORDER if key in values}
     if not goes_on or last is None:
         keys = {"id": values["id"], **own} | (visit if fetches else {"visits": [visit]})
