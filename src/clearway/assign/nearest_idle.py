@@ -38,6 +38,9 @@ class NearestIdle(ShelfCycle):
         super().__init__(scenario, params)
         self._distance = distance
 
+    def _committed(self, choice: Choice, board: Board) -> None:
+        """Nearest first needs no memory."""
+
     def _begin(self, board: Board) -> Iterator[Choice]:
         refused: list[tuple[int, Order]] = []
         passed: list[str] = []  # robots that could not take an order now
@@ -56,7 +59,7 @@ class NearestIdle(ShelfCycle):
             choice = self._fetch(view, order, "robot", ranked, because)
             yield choice
             if board.robots[view.id].trip is choice.trip:
-                self._commit_fetch(view.id, order)
+                self._commit_fetch(choice, board)
             else:
                 refused.append(taken)
                 passed.append(view.id)

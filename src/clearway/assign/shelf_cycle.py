@@ -70,6 +70,10 @@ class ShelfCycle(ABC):
         yield from self._begin(board)
 
     @abstractmethod
+    def _committed(self, choice: Choice, board: Board) -> None:
+        """Learn of a trip that a robot is committed to, while it still owns where it was."""
+
+    @abstractmethod
     def _begin(self, board: Board) -> Iterator[Choice]:
         """Yield the trips that begin orders."""
 
@@ -159,6 +163,7 @@ class ShelfCycle(ABC):
                 continue
             yield choice
             if board.robots[robot].trip is choice.trip:
+                self._committed(choice, board)
                 del self._next[robot]
                 if ended.purpose == "fetch":
                     self.yard.carry_off(robot, choice.chosen)
@@ -207,24 +212,34 @@ class ShelfCycle(ABC):
             if not len(self.yard.chargers):
                 yield from self._make_room(board)
             view = board.robots[robot]
-            ranked = self.yard.chargers.nearest(view.pose, 1 + self.params.alternatives)
-            if not ranked:
-                return
             battery = self._types[view.type].battery
             assert battery is not None
-            speed = self._types[view.type].limits.speed
-            service = _charging(battery, view.energy, ranked[0].score / speed)
-            charger = ranked[0].name
-            visit = Visit(None, self.yard.pose[charger], service)
-            trip = Trip(robot, (visit,), "charge", goals=(charger,))
             because = (
                 f"{robot} is at {100 * view.energy:.0f} %, below its reserve of "
-                f"{100 * battery.reserve:.0f} %; {charger} is the nearest free charger"
+                f"{100 * battery.reserve:.0f} %"
             )
-            yield _choice(trip, "charger", ranked, completes=False, because=because)
-            if board.robots[robot].trip is trip:
-                del self._low[robot]
-                self.yard.move(robot, charger)
+            yield from self._go_charging(view, battery, because, board)
+
+    def _go_charging(
+        self, view: RobotView, battery: Battery, because: str, board: Board
+    ) -> Iterator[Choice]:
+        """Yield the trip to the nearest free charger, if there is one."""
+        ranked = self.yard.chargers.nearest(view.pose, 1 + self.params.alternatives)
+        if not ranked:
+            return
+        speed = self._types[view.type].limits.speed
+        service = _charging(battery, view.energy, ranked[0].score / speed)
+        charger = ranked[0].name
+        visit = Visit(None, self.yard.pose[charger], service)
+        trip = Trip(view.id, (visit,), "charge", goals=(charger,))
+        because = f"{because}; {charger} is the nearest free charger"
+        choice = _choice(trip, "charger", ranked, completes=False, because=because)
+        yield choice
+        if board.robots[view.id].trip is trip:
+            self._committed(choice, board)
+            self._low.pop(view.id, None)
+            self.idle.discard(view.id)
+            self.yard.move(view.id, charger)
 
     def _make_room(self, board: Board) -> Iterator[Choice]:
         """Send one idle robot from its charger under a shelf."""
@@ -238,8 +253,10 @@ class ShelfCycle(ABC):
             visit = Visit(None, self.yard.pose[ranked[0].name])
             trip = Trip(robot, (visit,), "park", goals=(ranked[0].name,))
             because = f"others need {self.yard.owned(robot)}; {robot} is charged and idle"
-            yield _choice(trip, "location", ranked, completes=False, because=because)
+            choice = _choice(trip, "location", ranked, completes=False, because=because)
+            yield choice
             if board.robots[robot].trip is trip:
+                self._committed(choice, board)
                 self.idle.discard(robot)
                 self.yard.move(robot, ranked[0].name)
                 return
@@ -268,10 +285,11 @@ class ShelfCycle(ABC):
         """Let an order be the one with its number in the queue again."""
         heappush(self._open, (number, order.task.id))
 
-    def _commit_fetch(self, robot: str, order: Order) -> None:
+    def _commit_fetch(self, choice: Choice, board: Board) -> None:
         """Remember that a robot is on its way to an order's shelf."""
-        self.idle.discard(robot)
-        self.yard.select(robot, order.task.fetches or "")
+        self._committed(choice, board)
+        self.idle.discard(choice.trip.robot)
+        self.yard.select(choice.trip.robot, choice.trip.carries[0])
 
 
 def _choice(
