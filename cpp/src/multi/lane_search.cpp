@@ -74,8 +74,8 @@ LaneWay LaneSearch::operator()(const std::uint8_t* moves, const LaneQuery& query
     expand(best);
     for (std::size_t i = known; i < nodes_.size(); ++i) {
       const Node& n = nodes_[i];
-      const Ticks last = n.cell == query.goal ? query.last_turn[n.heading] : estimate(n.cell);
-      open_.push_back({n.arrive + last, n.arrive, n.num_entries, static_cast<int>(i)});
+      const Ticks f = n.cell == query.goal ? last_turn(n).end : n.arrive + estimate(n.cell);
+      open_.push_back({f, n.arrive, n.num_entries, static_cast<int>(i)});
       std::push_heap(open_.begin(), open_.end(), later);
     }
   }
@@ -193,12 +193,14 @@ void LaneSearch::place(int node) {
       if (k == last) break;
       const Entry& next = passage_[k + 1];
       const Fit found = fit(entry, wanted + entry.begin, next.begin - entry.begin, next.in);
+      if (found.begin >= kNever) return;  // somebody rests there
       later(found.begin - entry.begin, found.behind);
     }
     const Entry& end = passage_[last];
     // At the goal it stays for good.
     const Ticks stay = ends ? kNever - wanted - end.begin : holds_->step();
     const Fit found = fit(end, wanted + end.begin, stay, kNowhere);
+    if (found.begin >= kNever) return;
     later(found.begin - end.begin, found.behind);
     if (wanted > depart) {
       depart = wanted;
@@ -209,6 +211,7 @@ void LaneSearch::place(int node) {
         successor(found.before < 0 ? holds_->first(end.cell) : holds_->hold(found.before).next);
     if (next < 0) break;
     const Hold& other = holds_->hold(next);
+    if (other.end >= kNever) break;
     depart = std::max(depart + 1, other.free_from(end.in, holds_->step()) - end.begin);
     behind = other.robot;
   }
@@ -241,6 +244,15 @@ void LaneSearch::reach(int parent, Ticks depart, int before, int behind) {
   nodes_.push_back(node);
 }
 
+// At the goal it turns as soon as it may.
+LaneSearch::Turn LaneSearch::last_turn(const Node& node) const {
+  Turn turn;
+  const Ticks length = query_.last_turn[static_cast<std::size_t>(node.heading)];
+  turn.begin = turn_free_from(node.cell, node.arrive, length, &turn.behind);
+  turn.end = turn.begin + length;
+  return turn;
+}
+
 LaneWay LaneSearch::way_to(int node) const {
   std::vector<int> chain;
   for (int n = node; n > 0; n = nodes_[static_cast<std::size_t>(n)].parent) chain.push_back(n);
@@ -263,12 +275,11 @@ LaneWay LaneSearch::way_to(int node) const {
     }
   }
   CellStay& goal = way.stays.back();
-  const Ticks turn = query_.last_turn[nodes_[static_cast<std::size_t>(node)].heading];
-  int who = -1;
-  goal.turn_begin = turn_free_from(goal.cell, goal.arrive, turn, &who);
-  goal.turn_end = goal.turn_begin + turn;
-  if (goal.turn_begin > goal.arrive) way.behind.back() = who;
-  way.ready = goal.turn_end;
+  const Turn last = last_turn(nodes_[static_cast<std::size_t>(node)]);
+  goal.turn_begin = last.begin;
+  goal.turn_end = last.end;
+  way.behind.back() = last.behind;
+  way.ready = last.end;
   return way;
 }
 

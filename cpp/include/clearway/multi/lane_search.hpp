@@ -65,6 +65,10 @@ class LaneSearch {
     int turns;
     int node;
   };
+  struct Turn {
+    Ticks begin = 0, end = 0;
+    int behind = -1;
+  };
   struct Fit {
     Ticks begin;
     int before, behind;
@@ -78,6 +82,7 @@ class LaneSearch {
   Ticks latest_departure(const Node& node, Direction out) const;
   int successor(int hold) const;
   void reach(int parent, Ticks depart, int before, int behind);
+  Turn last_turn(const Node& node) const;
   LaneWay way_to(int node) const;
   Ticks estimate(int cell) const;
 
