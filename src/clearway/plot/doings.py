@@ -108,12 +108,12 @@ def _inside(spans: Sequence[Span], middles: NDArray[np.float64]) -> tuple[list[i
 
 def _until_it_moves(told: Sequence[Event], begins: Sequence[float], duration: float) -> list[Span]:
     """Return what holds from each event until the next one, or until the robot moves."""
+    ends = [*(float(event["t"]) for event in told[1:]), duration]
     found: list[Span] = []
-    for event, after in zip(told, [*told[1:], None], strict=True):
-        at = float(event["t"])
-        index = bisect_right(begins, at - 1e-6)
+    for event, end in zip(told, ends[: len(told)], strict=True):
+        index = bisect_right(begins, float(event["t"]) - 1e-6)
         move = begins[index] if index < len(begins) else duration
-        found.append(Span(at, min(move, float(after["t"]) if after else duration), event))
+        found.append(Span(float(event["t"]), min(move, end), event))
     return found
 
 
