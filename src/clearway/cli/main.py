@@ -93,6 +93,12 @@ def _parser() -> argparse.ArgumentParser:
     check.add_argument("--out", metavar="DIR/", help="draw the site into this folder")
     validate = commands.add_parser("validate", parents=[talk], help="judge a plan or a trace")
     validate.add_argument("path", metavar="RUN/, plan.json or trace.jsonl")
+    explain = commands.add_parser("explain", parents=[talk], help="why a robot does what it does")
+    explain.add_argument("path", metavar="RUN/ or trace.jsonl")
+    explain.add_argument("--robot", required=True, metavar="ID")
+    explain.add_argument(
+        "--at", required=True, type=_number, metavar="T", help="seconds from the run's beginning"
+    )
     commands.add_parser("schema", parents=[talk], help="JSON Schema of scenario files")
     bench = commands.add_parser(
         "bench", parents=[talk, search], help="a set of instances, one row each"
