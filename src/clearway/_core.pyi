@@ -1037,6 +1037,162 @@ class RouteSearch:
     def expansions(self) -> int:
         """Nodes expanded in the last search."""
 
+class TailParams:
+    """Parameters of always-complete planning."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def search(self) -> SearchParams: ...
+
+    @search.setter
+    def search(self, arg: SearchParams, /) -> None: ...
+
+    @property
+    def objective(self) -> Objective: ...
+
+    @objective.setter
+    def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+class TailQuery:
+    """A new tail that is asked for."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def robot(self) -> int: ...
+
+    @robot.setter
+    def robot(self, arg: int, /) -> None: ...
+
+    @property
+    def now(self) -> int: ...
+
+    @now.setter
+    def now(self, arg: int, /) -> None: ...
+
+    @property
+    def kept(self) -> list[TimedPiece]: ...
+
+    @kept.setter
+    def kept(self, arg: Sequence[TimedPiece], /) -> None: ...
+
+    @property
+    def start(self) -> Pose: ...
+
+    @start.setter
+    def start(self, arg: Pose, /) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @mode.setter
+    def mode(self, arg: int, /) -> None: ...
+
+    @property
+    def ready(self) -> int: ...
+
+    @ready.setter
+    def ready(self, arg: int, /) -> None: ...
+
+    @property
+    def legs(self) -> list[Leg]: ...
+
+    @legs.setter
+    def legs(self, arg: Sequence[Leg], /) -> None: ...
+
+    @property
+    def rests(self) -> list[Pose]: ...
+
+    @rests.setter
+    def rests(self, arg: Sequence[Pose], /) -> None: ...
+
+    @property
+    def rest_body(self) -> int: ...
+
+    @rest_body.setter
+    def rest_body(self, arg: int, /) -> None: ...
+
+    @property
+    def fine(self) -> bool: ...
+
+    @fine.setter
+    def fine(self, arg: bool, /) -> None: ...
+
+    @property
+    def limit(self) -> int: ...
+
+    @limit.setter
+    def limit(self, arg: int, /) -> None: ...
+
+class Tail:
+    """What a search for a tail came to."""
+
+    @property
+    def found(self) -> bool: ...
+
+    @property
+    def exhausted(self) -> bool: ...
+
+    @property
+    def pieces(self) -> list[TimedPiece]: ...
+
+    @property
+    def stops(self) -> list[TourStop]: ...
+
+    @property
+    def rest(self) -> int: ...
+
+    @property
+    def expansions(self) -> int: ...
+
+    @property
+    def met(self) -> list[int]: ...
+
+class Meeting:
+    """Whom a robot meets, and where it is then."""
+
+    @property
+    def robot(self) -> int: ...
+
+    @property
+    def at(self) -> Pose: ...
+
+class TailPlanner:
+    """Everybody's committed motion, of which tails are replaced one by one."""
+
+    def __init__(self, models: Sequence[Model], model_of: Sequence[int], params: TailParams) -> None: ...
+
+    def place(self, robot: int, now: int, start: Pose, pieces: Sequence[TimedPiece], body: int) -> None: ...
+
+    def plan(self, query: TailQuery) -> Tail:
+        """Commit a robot to a new tail, if one is found."""
+
+    def alone(self, query: TailQuery) -> Tail:
+        """The tail that it would have with nobody else on the site."""
+
+    def meetings(self, robot: int, pieces: Sequence[TimedPiece], earlier: int) -> list[Meeting]:
+        """
+        Whom a robot would meet first if it drove pieces so many ticks earlier.
+        """
+
+    def clear_until(self, robot: int, now: int, statics: Sequence[Statics]) -> int:
+        """
+        Last tick up to which a robot's motion is clear of what stands; NEVER if always.
+        """
+
+    def settled(self, robot: int) -> int:
+        """When a robot comes to its last rest."""
+
+    def rebuild(self, statics: Sequence[Sequence[Statics]]) -> None:
+        """Take over what stands, for each model and body."""
+
 class AssignmentCosts:
     """What it costs robots to go from task to task."""
 
