@@ -22,7 +22,7 @@ class RouteSearch:
     """
 
     def __init__(self, grid: LaneGrid, step_ticks: int, turn_ticks: int) -> None:
-        self._width = grid.size[0]
+        self._width, self._height = grid.size
         self._search = _core.RouteSearch(grid.lanes, step_ticks, turn_ticks)
 
     def __call__(
@@ -35,17 +35,25 @@ class RouteSearch:
         heading
             One of the directions of `clearway.world.lane_grid` in which the robot points at the
             start; ``None``: it may set out in any without turning.
+
+        Raises
+        ------
+        ValueError
+            If a cell or a move that comes up is not on the grid, or ``moves`` is of another size.
         """
         number = -1 if heading is None else tuple(STEPS).index(heading)
-        found = self._search(
-            moves,
-            start[1] * self._width + start[0],
-            goal[1] * self._width + goal[0],
-            number,
-        )
+        found = self._search(moves, self._number(start), self._number(goal), number)
         return tuple((cell % self._width, cell // self._width) for cell in found) or None
 
     @property
     def expansions(self) -> int:
         """Nodes expanded in the last search."""
         return self._search.expansions
+
+    def _number(self, cell: Cell) -> int:
+        x, y = cell
+        if not (0 <= x < self._width and 0 <= y < self._height):
+            raise ValueError(
+                f"cell {cell} is not on the grid of {self._width} x {self._height} cells"
+            )
+        return y * self._width + x
