@@ -12,5 +12,6 @@ void bind_motion(nanobind::module_& m);
 void bind_prioritised(nanobind::module_& m);
 void bind_conflict_search(nanobind::module_& m);
 void bind_lone_legs(nanobind::module_& m);
+void bind_path_conflicts(nanobind::module_& m);
 
 }  // namespace clearway::bindings

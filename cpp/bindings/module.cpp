@@ -11,5 +11,6 @@ NB_MODULE(_core, m) {
   clearway::bindings::bind_prioritised(m);
   clearway::bindings::bind_conflict_search(m);
   clearway::bindings::bind_lone_legs(m);
+  clearway::bindings::bind_path_conflicts(m);
   clearway::bindings::bind_assign(m);
 }

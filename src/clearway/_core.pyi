@@ -929,6 +929,48 @@ def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) ->
     Ticks that each leg takes with nobody else on the site; -1 where no way is found.
     """
 
+class CommittedPath:
+    """A robot's whole motion, cut into cells."""
+
+    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
+
+    @property
+    def num_cells(self) -> int: ...
+
+class PathParams:
+    """How exactly places of conflict are told."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+    @property
+    def finest(self) -> float: ...
+
+    @finest.setter
+    def finest(self, arg: float, /) -> None: ...
+
+class PathConflicts:
+    """What two robots wait for: (at, passed), rising."""
+
+    @property
+    def first(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def second(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def meeting(self) -> int: ...
+
+def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
+    """
+    Where two committed motions need the same floor, whatever their times become.
+    """
+
 class AssignmentCosts:
     """What it costs robots to go from task to task."""
 
