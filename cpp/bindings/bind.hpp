@@ -15,5 +15,6 @@ void bind_lanes(nanobind::module_& m);
 void bind_lone_legs(nanobind::module_& m);
 void bind_route_search(nanobind::module_& m);
 void bind_tail_planner(nanobind::module_& m);
+void bind_path_conflicts(nanobind::module_& m);
 
 }  // namespace clearway::bindings

@@ -1039,6 +1039,16 @@ class RouteSearch:
 
 class TailParams:
     """Parameters of always-complete planning."""
+class CommittedPath:
+    """A robot's whole motion, cut into cells."""
+
+    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
+
+    @property
+    def num_cells(self) -> int: ...
+
+class PathParams:
+    """How exactly places of conflict are told."""
 
     def __init__(self) -> None: ...
 
@@ -1192,6 +1202,28 @@ class TailPlanner:
 
     def rebuild(self, statics: Sequence[Sequence[Statics]]) -> None:
         """Take over what stands, for each model and body."""
+    @property
+    def finest(self) -> float: ...
+
+    @finest.setter
+    def finest(self, arg: float, /) -> None: ...
+
+class PathConflicts:
+    """What two robots wait for: (at, passed), rising."""
+
+    @property
+    def first(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def second(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def meeting(self) -> int: ...
+
+def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
+    """
+    Where two committed motions need the same floor, whatever their times become.
+    """
 
 class AssignmentCosts:
     """What it costs robots to go from task to task."""
