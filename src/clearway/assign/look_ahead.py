@@ -61,7 +61,7 @@ class LookAhead(ShelfCycle):
     Parameters
     ----------
     times
-        Driving times between the site's endpoints.
+        Driving times between the site's endpoints; made of the scenario's layout if not given.
     """
 
     station_rule = "the station with the shortest way on to the next order"
@@ -70,13 +70,13 @@ class LookAhead(ShelfCycle):
     def __init__(
         self,
         scenario: Scenario,
-        times: LaneTimes,
         params: ShelfParams | None = None,
         ahead: LookAheadParams | None = None,
+        times: LaneTimes | None = None,
     ) -> None:
         super().__init__(scenario, params)
         self.ahead = ahead or LookAheadParams()
-        self._times = times
+        self._times = times = times or LaneTimes.of(scenario)
         self._far = times.matrix()
         self._seed = scenario.seed
         kinds = self.yard.kind
@@ -97,6 +97,8 @@ class LookAhead(ShelfCycle):
 
     def _begin(self, board: Board) -> Iterator[Choice]:
         """Yield the trips that begin orders, then those of robots that charge early."""
+        for id in [id for id in self._planned if id not in board.open]:
+            self._drop(id)  # withdrawn, or given up
         has_new = self._take_up(board)
         wanting = any(not self._sequences[r] for r in self.idle.names()) and self._planned
         if has_new or wanting or self._begun >= self.ahead.every:
@@ -112,7 +114,7 @@ class LookAhead(ShelfCycle):
                 choice = self._propose(board.robots[fetcher], order, place)
                 yield choice
                 if board.robots[fetcher].trip is choice.trip:
-                    self._commit_fetch(choice, board)
+                    self._commit_fetch(choice, order, board)
                     self._drop(id)
                     self._begun += 1
                 else:

@@ -59,7 +59,7 @@ class NearestIdle(ShelfCycle):
             choice = self._fetch(view, order, "robot", ranked, because)
             yield choice
             if board.robots[view.id].trip is choice.trip:
-                self._commit_fetch(choice, board)
+                self._commit_fetch(choice, order, board)
             else:
                 refused.append(taken)
                 passed.append(view.id)

@@ -55,6 +55,7 @@ class ShelfCycle(ABC):
         self._types = scenario.robot_types
         self._low: dict[str, None] = {}  # robots that need a charger, oldest first
         self._next: dict[str, Trip] = {}  # robots in the middle of an order: the trip that ended
+        self._doing: dict[str, Order] = {}
         self._is_begun = False
         self._open: list[tuple[int, str]] = []
         self._blocked: dict[str, list[tuple[int, str]]] = {}
@@ -155,10 +156,10 @@ class ShelfCycle(ABC):
             number = 1 + self.params.alternatives
             if ended.purpose == "fetch":
                 best = self._stations(view, shelf, number)
-                choice = self._deliver(view, board.open[ended.order or ""], shelf, best)
+                choice = self._deliver(view, self._doing[robot], shelf, best)
             else:
                 best = self._places(view, number)
-                choice = self._store(view, board.open[ended.order or ""], shelf, best)
+                choice = self._store(view, self._doing[robot], shelf, best)
             if choice is None:
                 continue
             yield choice
@@ -285,8 +286,9 @@ class ShelfCycle(ABC):
         """Let an order be the one with its number in the queue again."""
         heappush(self._open, (number, order.task.id))
 
-    def _commit_fetch(self, choice: Choice, board: Board) -> None:
+    def _commit_fetch(self, choice: Choice, order: Order, board: Board) -> None:
         """Remember that a robot is on its way to an order's shelf."""
+        self._doing[choice.trip.robot] = order
         self._committed(choice, board)
         self.idle.discard(choice.trip.robot)
         self.yard.select(choice.trip.robot, choice.trip.carries[0])

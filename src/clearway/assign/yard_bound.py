@@ -17,7 +17,7 @@ FAR = 1e9  # forbids a pair in the assignment
 
 
 def makespan_bound(
-    scenario: Scenario, times: LaneTimes, params: ShelfParams | None = None
+    scenario: Scenario, params: ShelfParams | None = None, times: LaneTimes | None = None
 ) -> float:
     """Return a time (s) before which no dispatching and no motion on the lanes ends all orders.
 
@@ -40,7 +40,8 @@ def makespan_bound(
     Parameters
     ----------
     times
-        Least driving times, with the time that turns take or less.
+        Least driving times, with the time that turns take or less; made of the scenario's layout
+        and first robot if not given.
 
     Raises
     ------
@@ -48,6 +49,7 @@ def makespan_bound(
         If an order's shelf does not exist, or a robot starts at no endpoint.
     """
     params = params or ShelfParams()
+    times = times or LaneTimes.of(scenario)
     yard = ShelfYard(scenario.site)
     require_shelves(yard, ((order.task.id, order.task.fetches) for order in scenario.orders))
     if not scenario.orders:

@@ -18,6 +18,7 @@ from clearway.systems.settings import SettingsError
 from clearway.world.channels import RULES, lane_grid
 from clearway.world.dynamic_map import DynamicMap
 from clearway.world.lane_grid import LaneGrid
+from clearway.world.lane_times import LaneTimes
 
 
 @dataclass(frozen=True)
@@ -73,8 +74,8 @@ def bidirectional(settings: BidirectionalSettings) -> Lifelong:
         params = ShelfParams(residence=settings.residence, lift=settings.lift, lower=settings.lower)
         if settings.dispatch == "ahead":
             return LookAhead(scenario, params)
-        by_route = RouteLengths(grid_of(scenario), settings.map_mode)
-        return NearestIdle(scenario, params, by_route if settings.nearest == "route" else None)
+        by_route = LaneTimes(grid_of(scenario)) if settings.nearest == "route" else None  # metres
+        return NearestIdle(scenario, params, by_route)
 
     def execute(scenario: Scenario) -> Executor:
         return RightOfWay(CellConflicts(grid_of(scenario)))

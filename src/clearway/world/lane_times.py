@@ -1,10 +1,14 @@
 """Least driving times between endpoints of a lane grid, nobody else being there."""
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
+from clearway.model import Scenario
+from clearway.world.channels import lane_grid
 from clearway.world.dynamic_map import DynamicMap
 from clearway.world.lane_grid import STEPS, Cell, LaneGrid
 
@@ -41,6 +45,21 @@ class LaneTimes:
         self._graph = csr_array((np.array(self._costs), edges), shape=shape)
         self._rows: dict[int, Floats] = {}
 
+    @classmethod
+    def of(cls, scenario: Scenario) -> "LaneTimes":
+        """Return the times of a scenario's robots, all of the first one's type, on its layout.
+
+        Raises
+        ------
+        ValueError
+            If the site has no layout.
+        """
+        if scenario.site.layout is None:
+            raise ValueError(f"scenario {scenario.name}: give the site a layout to have lanes")
+        limits = scenario.type_of(scenario.robots[0]).limits
+        turn = 0.0 if limits.yaw_rate is None else math.pi / 2.0 / limits.yaw_rate
+        return cls(lane_grid(scenario.site.layout), limits.speed, turn)
+
     def __call__(self, start: str, goal: str) -> float:
         """Return the least driving time (s) from one endpoint to another; 0 to itself."""
         return float(self.row(start)[self.number[goal]])
@@ -67,7 +86,7 @@ class LaneTimes:
             self._rows[k] = row
 
     def _nodes(self, cells: list[Cell]) -> dict[Cell, int]:
-        """Number nodes for cells, one for each heading; return the first of each."""
+        """Return the first of new nodes for each cell, one per heading."""
         first = {cell: self._size + i * self._headings for i, cell in enumerate(cells)}
         self._size += len(cells) * self._headings
         return first
