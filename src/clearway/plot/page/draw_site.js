@@ -104,24 +104,38 @@ function drawSite(ctx, camera, ink, ratio) {
   ctx.stroke(sitePaths.bounds);
 }
 
+/** Beyond these many of one kind, all their names are shown or none. */
+const FEW_ZONES = 12;
+
 /** Names of zones where they fit, in small letters if need be. */
 function drawZoneNames(ctx, camera, ink, ratio) {
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
   ctx.fillStyle = ink.zoneText;
-  for (const zone of data.site.zones) {
-    const xs = zone.polygon.map((p) => p[0]);
-    const ys = zone.polygon.map((p) => p[1]);
+  const font = (pixels) => `500 ${pixels}px ${ink.font}`;
+  const kinds = new Map();
+  for (const { name, kind, polygon } of data.site.zones) {
+    const xs = polygon.map((p) => p[0]);
+    const ys = polygon.map((p) => p[1]);
     const [left, top] = camera.toScreen(Math.min(...xs), Math.max(...ys));
     const [right, bottom] = camera.toScreen(Math.max(...xs), Math.min(...ys));
-    if (right < 0 || left > camera.width || bottom < 0 || top > camera.height) continue;
+    const isSeen = right > 0 && left < camera.width && bottom > 0 && top < camera.height;
     const size = [11, 9].find((pixels) => {
-      ctx.font = `500 ${pixels}px ${ink.font}`;
-      return bottom - top > pixels + 3 && right - left > pixels + 3
-        && ctx.measureText(zone.name).width < right - left - (pixels - 7);
-    });
-    if (size) ctx.fillText(zone.name, (left + right) / 2, (top + bottom) / 2);
+      ctx.font = font(pixels);
+      return Math.min(bottom - top, right - left) > pixels + 3
+        && ctx.measureText(name).width < right - left - (pixels - 7);
+    }) ?? 0;
+    if (!kinds.has(kind)) kinds.set(kind, []);
+    kinds.get(kind).push({ name, size, isSeen, x: (left + right) / 2, y: (top + bottom) / 2 });
+  }
+  for (const zones of kinds.values()) {
+    const least = zones.length > FEW_ZONES ? Math.min(...zones.map((zone) => zone.size)) : null;
+    for (const { name, size, isSeen, x, y } of zones) {
+      if (!isSeen || !(least ?? size)) continue;
+      ctx.font = font(least ?? size);
+      ctx.fillText(name, x, y);
+    }
   }
 }
 
