@@ -11,10 +11,16 @@ function luminance(colour) {
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 
+const inksOn = new Map();
+
 /** White or near-black, whichever reads better on a colour. */
 function inkOn(colour) {
-  const light = luminance(colour);
-  return 1.05 / (light + 0.05) > (light + 0.05) / 0.056 ? "#ffffff" : "#111418";
+  if (!inksOn.has(colour)) {
+    const light = luminance(colour);
+    const isWhite = 1.05 / (light + 0.05) > (light + 0.05) / 0.056;
+    inksOn.set(colour, isWhite ? "#ffffff" : "#111418");
+  }
+  return inksOn.get(colour);
 }
 
 const lineColours = new Map();

@@ -33,6 +33,12 @@ class Timeline {
       player.refresh();
     });
     new ResizeObserver(() => player.refresh()).observe(holder);
+    // Nobody waits for a picture that is out of sight.
+    this.isSeen = true;
+    new IntersectionObserver(([entry]) => {
+      this.isSeen = entry.isIntersecting;
+      player.refresh();
+    }).observe(holder);
     this.listen();
   }
 
@@ -104,7 +110,7 @@ class Timeline {
 
   show(time, chosen, ink) {
     const width = this.holder.clientWidth;
-    if (!width) return;
+    if (!width || !(this.isSeen || !this.key)) return;
     const sharp = Math.min(3, window.devicePixelRatio || 1);
     const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     [this.width, this.height] = [width, HEAD + LINE * robots.length + 4];
