@@ -4,8 +4,9 @@ from collections.abc import Callable
 from typing import Any
 
 from clearway.formats.json_node import Node
-from clearway.formats.plan_parts import outline_of, pose_of
+from clearway.formats.plan_parts import built, outline_of, polygon_of, pose_of
 from clearway.formats.trace_dump import SAMPLES
+from clearway.model import Zone
 
 ORDER_STATES = ("released", "assigned", "started", "done", "failed", "cancelled")
 END_STATES = ("done", "ended", "interrupted")
@@ -110,18 +111,26 @@ def _fault(node: Node) -> None:
     node["kind"].text()
     node["state"].text()
     if node["zone"].given:
-        node["zone"].text()
-        outline_of(node["polygon"])
+        name, polygon = node["zone"].text(), node["polygon"]
+        outline = outline_of(polygon)
+        built(polygon, lambda: Zone(name, "closed", outline))
 
 
 def _decision(node: Node) -> None:
     node["kind"].text()
     _optional(node, "order", "purpose", "chosen", "because", "outcome", "reason", check=Node.text)
+    _optional(node, "rest", check=Node.text)
     _optional(node, "score", "cpu_s", check=Node.figure)
-    if node["alternatives"].given:
-        for other in node["alternatives"].elements():
-            other["name"].text()
-            other["score"].figure()
+    _optional(node, "arrive", check=Node.array)
+    _optional(node, "causes", check=_texts)
+    _optional(node, "alternatives", check=_alternatives)
+    _optional(node, "route", check=polygon_of)
+
+
+def _alternatives(node: Node) -> None:
+    for other in node.elements():
+        other["name"].text()
+        other["score"].figure()
 
 
 def _end(node: Node) -> None:

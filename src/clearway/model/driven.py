@@ -1,6 +1,7 @@
 """What each robot drove: the pieces of motion of a trace, joined."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -26,19 +27,24 @@ def tracks_of(trace: Trace) -> dict[str, Track]:
 
 
 def _joined(robot: Robot, pieces: list[Mapping[str, Any]]) -> Track:
-    rows = [np.array([[0.0, *robot.start]])]
-    modes: list[str | None] = [robot.start_mode]
-    for piece in pieces:
-        table = np.column_stack([piece[name] for name in SAMPLES])
-        last = rows[-1][-1]
-        if table[0, 0] > last[0]:
-            if np.abs(table[0, 1:] - last[1:]).max() > 0.0:
-                rows.append(np.array([[table[0, 0], *last[1:]]]))
-                modes.append(modes[-1])
-        elif np.array_equal(table[0], last):
-            rows[-1] = rows[-1][:-1]
-            modes.pop()
-        rows.append(table)
-        modes += piece.get("mode") or [None] * len(table)
-    t, x, y, theta = np.concatenate(rows).T
-    return Track(t, x, y, theta, tuple(modes))
+    rows = np.empty((1 + sum(len(piece["t"]) for piece in pieces), 4))
+    rows[0] = 0.0, *robot.start
+    for column, name in enumerate(SAMPLES):
+        rows[1:, column] = np.concatenate([[], *(piece[name] for piece in pieces)])
+    first = np.cumsum([1, *(len(piece["t"]) for piece in pieces)], dtype=np.intp)[:-1]
+    last = first - 1
+    apart = (rows[first, 1:] != rows[last, 1:]).any(axis=1)
+    later = rows[first, 0] > rows[last, 0]
+    copies = np.ones(len(rows), dtype=np.intp)
+    copies[last[~apart & (rows[first, 0] == rows[last, 0])]] = 0
+    copies[last[apart & later]] = 2
+    index = np.repeat(np.arange(len(rows)), copies)
+    t, x, y, theta = rows[index].T.copy()
+    held = np.flatnonzero(np.diff(index) == 0) + 1
+    t[held] = t[held + 1]
+    modes = [robot.start_mode, *chain.from_iterable(_modes(piece) for piece in pieces)]
+    return Track(t, x, y, theta, tuple(map(modes.__getitem__, index.tolist())))
+
+
+def _modes(piece: Mapping[str, Any]) -> Sequence[str | None]:
+    return piece.get("mode") or (None,) * len(piece["t"])

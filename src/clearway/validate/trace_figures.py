@@ -1,17 +1,16 @@
 """Whether the figures that a trace ends with are those of its events."""
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 
 from clearway.model import Trace, Track, trip_spans
-from clearway.validate.steps import Floats, moves
+from clearway.validate.steps import Bools, Floats, moves
 from clearway.validate.violation import Violation
 
 TIME = 1e-3
 # Distance and waiting are sums over many stored samples, each rounded to 1e-6.
 SHARE = 1e-4
+
+Span = tuple[float, float]
 
 
 def judge_end(trace: Trace, tracks: dict[str, Track]) -> list[Violation]:
@@ -24,13 +23,13 @@ def judge_end(trace: Trace, tracks: dict[str, Track]) -> list[Violation]:
     found = []
     if len(endings) > 1 or trace.events[-1]["event"] != "end":
         found.append(_wrong(t, "the trace goes on after its end"))
-    for name, true in _figures(trace, tracks).items():
+    figures = _figures(trace, tracks)
+    for name, true in figures.items():
         stated = ending.get(name)
         if stated is not None and abs(stated - true) > TIME + SHARE * abs(true):
             found.append(_wrong(t, f"{name} stated as {stated:.6g}, by the events {true:.6g}"))
-    left = _figures(trace, tracks)["orders_open"]
-    if ending["status"] == "done" and left:
-        found.append(_wrong(t, f"it says done, but {left:.0f} orders are open"))
+    if ending["status"] == "done" and figures["orders_open"]:
+        found.append(_wrong(t, f"it says done, but {figures['orders_open']:.0f} orders are open"))
     return found
 
 
@@ -63,35 +62,42 @@ def _figures(trace: Trace, tracks: dict[str, Track]) -> dict[str, float]:
 
 def _waiting(trace: Trace, tracks: dict[str, Track]) -> float:
     """Return the time (s) that robots stand on trips without being at a visit."""
-    services = _services(trace)
-    total = 0.0
-    for span in trip_spans(trace):
-        track = tracks[span.robot]
-        stands = np.append(~moves(track), True)
-        edges = np.append(track.t, max(float(track.t[-1]), span.end) + 1.0)
-        stood = np.concatenate([[0.0], np.cumsum(np.diff(edges) * stands)])
-
-        def standing(
-            begin: float, end: float, edges: Floats = edges, stood: Floats = stood
-        ) -> float:
-            low, high = np.interp([begin, max(begin, end)], edges, stood)
-            return float(high - low)
-
-        total += standing(span.begin, span.end)
-        for begin, end in services.get(span.robot, ()):
-            total -= standing(max(begin, span.begin), min(end, span.end))
-    return total
+    trips: dict[str, list[Span]] = {name: [] for name in tracks}
+    for trip in trip_spans(trace):
+        trips[trip.robot].append((trip.begin, trip.end))
+    visits = _visits(trace)
+    return sum(_stood(track, trips[name], visits[name]) for name, track in tracks.items())
 
 
-def _services(trace: Trace) -> Mapping[str, list[tuple[float, float]]]:
-    found: dict[str, list[tuple[float, float]]] = {}
-    begun: dict[str, Mapping[str, Any]] = {}
+def _visits(trace: Trace) -> dict[str, list[Span]]:
+    found: dict[str, list[Span]] = {robot.id: [] for robot in trace.robots}
+    begun: dict[str, float] = {}
     for event in trace.of("visit"):
         if event["state"] == "arrived":
-            begun[event["robot"]] = event
+            begun[event["robot"]] = float(event["t"])
         elif event["robot"] in begun:
-            begin = float(begun.pop(event["robot"])["t"])
-            found.setdefault(event["robot"], []).append((begin, float(event["t"])))
-    for robot, event in begun.items():
-        found.setdefault(robot, []).append((float(event["t"]), np.inf))
+            found[event["robot"]].append((begun.pop(event["robot"]), float(event["t"])))
+    for robot, begin in begun.items():
+        found[robot].append((begin, np.inf))
     return found
+
+
+def _stood(track: Track, trips: list[Span], visits: list[Span]) -> float:
+    """Return how long a robot stands within its trips, outside its visits."""
+    ends = np.array([time for span in (*trips, *visits) for time in span if time < np.inf])
+    grid = np.unique(np.concatenate([track.t, ends]))
+    middle = 0.5 * (grid[:-1] + grid[1:])
+    step = np.searchsorted(track.t, middle, side="right") - 1
+    counts = (
+        np.append(~moves(track), True)[step] & _within(middle, trips) & ~_within(middle, visits)
+    )
+    return float(np.diff(grid)[counts].sum())
+
+
+def _within(times: Floats, spans: list[Span]) -> Bools:
+    """Return which times lie in one of the spans, which follow on each other."""
+    if not spans:
+        return np.zeros(len(times), dtype=bool)
+    begin, end = np.array(spans).T
+    index = np.searchsorted(begin, times, side="right") - 1
+    return np.asarray((index >= 0) & (times < end[index]))
