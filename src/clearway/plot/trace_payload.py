@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from typing import Any
 
-from clearway.plot.chronicle import Chronicle, Diary, TripSpan
+from clearway.plot.chronicle import Chronicle, Diary
 from clearway.plot.curves import curves
-from clearway.plot.doings import Doing, Event
+from clearway.plot.doings import Doing, Event, Span
 from clearway.plot.explain import STATES, causes_of
 from clearway.plot.palette import robot_colour
 from clearway.plot.payload import flat, modes_of, shape_of, site_of
@@ -15,7 +15,7 @@ from clearway.plot.thin import thin
 from clearway.plot.told import of_doing, of_hold, of_trip
 
 
-def run_payload(chronicle: Chronicle, figures: Sequence[Sequence[str]]) -> dict[str, Any]:
+def trace_payload(chronicle: Chronicle, figures: Sequence[Sequence[str]]) -> dict[str, Any]:
     """Return the page's data; times in ms, lengths in m and angles in rad.
 
     Parameters
@@ -114,12 +114,12 @@ def _activity(doing: Doing) -> list[Any]:
     return [doing.kind, _ms(doing.start), _ms(doing.end), label, of_doing(doing), list(causes)]
 
 
-def _trip(chronicle: Chronicle, trip: TripSpan) -> list[Any]:
-    order = trip.decision.get("order")
+def _trip(chronicle: Chronicle, trip: Span) -> list[Any]:
+    order = trip.event.get("order")
     told = chronicle.orders.get(order, []) if order else []
     decisions = chronicle.decisions.get(order, []) if order else []
     sentences = of_trip(trip, told, decisions)
-    return [_ms(trip.start), _ms(trip.end), trip.decision.get("purpose"), order, sentences]
+    return [_ms(trip.start), _ms(trip.end), trip.event.get("purpose"), order, sentences]
 
 
 def _order(name: str, told: Sequence[Event], numbers: Mapping[str, int]) -> dict[str, Any]:

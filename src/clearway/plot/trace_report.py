@@ -1,15 +1,15 @@
 """The report of a run through time: the same page as a plan's, made from its trace."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from clearway.formats.atomic import write_text
+from clearway.metrics import TraceMetrics
 from clearway.model import Trace
 from clearway.plot.chronicle import Chronicle, chronicle
+from clearway.plot.key_figures import key_figures
 from clearway.plot.report import banner, compose
-from clearway.plot.run_payload import run_payload
 from clearway.plot.sentences import NAMED, clock, count, extent, what_the_judge_says
+from clearway.plot.trace_payload import trace_payload
 
 _RUN = ("draw_run.js", "why.js", "timeline.js", "charts.js", "orders.js", "run_page.js")
 
@@ -21,12 +21,20 @@ _BADGES = {
 }
 
 
-def write_trace_report(trace: Trace, metrics: Mapping[str, Any], path: Path) -> None:
-    """Write the report of a run as one HTML file that loads nothing from anywhere."""
-    write_text(path, render_run(trace, metrics))
+def write_trace_report(
+    trace: Trace, metrics: TraceMetrics, path: Path, violations: int = 0
+) -> None:
+    """Write the report of a run as one HTML file that loads nothing from anywhere.
+
+    Parameters
+    ----------
+    violations
+        Number of those that the judge found.
+    """
+    write_text(path, render_trace(trace, metrics, violations))
 
 
-def render_run(trace: Trace, metrics: Mapping[str, Any]) -> str:
+def render_trace(trace: Trace, metrics: TraceMetrics, violations: int = 0) -> str:
     """Return the report's HTML."""
     happened = chronicle(trace)
     end = trace.events[-1] if trace.is_whole else {}
@@ -34,34 +42,30 @@ def render_run(trace: Trace, metrics: Mapping[str, Any]) -> str:
     return compose(
         "run",
         _RUN,
-        run_payload(happened, _figures(metrics)),
+        trace_payload(happened, key_figures(metrics, violations)),
         title=trace.scenario,
         status=status,
         badge=_BADGES.get(status, status),
-        summary=_what_it_is(happened),
+        summary=_what_it_is(happened, metrics),
         banners=(
             banner("stop", _what_ended_it(happened, status)),
-            banner("fault", what_the_judge_says(int(metrics.get("violations", 0)), "run")),
+            banner("fault", what_the_judge_says(violations, "run")),
         ),
     )
 
 
-def _figures(metrics: Mapping[str, Any]) -> list[list[str]]:
-    return [[name, str(value), ""] for name, value in metrics.items()]
-
-
-def _what_it_is(happened: Chronicle) -> list[str]:
+def _what_it_is(happened: Chronicle, metrics: TraceMetrics) -> list[str]:
     """Return two sentences that tell a stranger what the run is."""
     trace = happened.trace
     who = count(len(trace.robots), "robot")
-    done = _orders_in(happened, ("done",))
-    work = f"{len(done)} of {count(len(happened.orders), 'order')}"
     first = (
         f"{who} at work for {clock(happened.duration)}"
         f" on a site of {extent(trace.site.bounds)}, as {trace.system}."
     )
-    hour = 3600.0 * len(done) / happened.duration if happened.duration else 0.0
-    return [first, f"They did {work}, {hour:.0f} an hour."]
+    if not metrics.orders:
+        return [first]
+    work = f"{metrics.orders_done} of {count(metrics.orders, 'order')}"
+    return [first, f"{work} are done, {metrics.throughput:.0f} an hour."]
 
 
 def _what_ended_it(happened: Chronicle, status: str) -> tuple[str, list[str]] | None:
