@@ -7,19 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from clearway.model import Robot, Trace, Track
+from clearway.model import Robot, Trace, Track, tracks_of, trip_spans
 from clearway.plot.doings import Doing, Event, Span, doings
-
-# A robot's own trips, which a trip for an order may end before their time.
-_OWN = ("park", "charge")
-
-
-class TripSpan(NamedTuple):
-    """A trip from its decision, or the end of the trip before, until its last service ends."""
-
-    start: float
-    end: float
-    decision: Event
 
 
 class Hold(NamedTuple):
@@ -39,6 +28,8 @@ class Diary:
     ----------
     doings
         Without gaps and overlaps from 0 to the end of the run.
+    trips
+        With the decisions that committed the robot to them.
     loads, energy
         Events of these kinds, in order.
     """
@@ -46,7 +37,7 @@ class Diary:
     robot: Robot
     track: Track
     doings: list[Doing] = field(default_factory=list)
-    trips: list[TripSpan] = field(default_factory=list)
+    trips: list[Span] = field(default_factory=list)
     visits: list[Span] = field(default_factory=list)
     loads: list[Event] = field(default_factory=list)
     energy: list[Event] = field(default_factory=list)
@@ -55,7 +46,7 @@ class Diary:
         """Return what it does at a moment of the run."""
         return self.doings[max(0, bisect_right(self.doings, time, key=lambda d: d.start) - 1)]
 
-    def trip(self, time: float) -> TripSpan | None:
+    def trip(self, time: float) -> Span | None:
         """Return the trip that it is on."""
         index = bisect_right(self.trips, time, key=lambda trip: trip.start) - 1
         return self.trips[index] if index >= 0 and time < self.trips[index].end else None
@@ -114,7 +105,11 @@ def chronicle(trace: Trace) -> Chronicle:
         if kind == "decision" and event.get("order") and event.get("outcome") != "refused":
             decisions.setdefault(event["order"], []).append(event)
     duration = max((float(np.max(event["t"])) for event in trace.events), default=0.0)
-    diaries = {robot.id: _diary(robot, by_robot[robot.id], duration) for robot in trace.robots}
+    tracks, trips = tracks_of(trace), _trips(trace)
+    diaries = {
+        robot.id: _diary(robot, tracks[robot.id], trips[robot.id], by_robot[robot.id], duration)
+        for robot in trace.robots
+    }
     return Chronicle(
         trace,
         duration,
@@ -126,32 +121,36 @@ def chronicle(trace: Trace) -> Chronicle:
     )
 
 
-def _diary(robot: Robot, told: Mapping[str, Sequence[Event]], duration: float) -> Diary:
-    track = driven(robot, told.get("motion", ()))
-    diary = Diary(
+def _diary(
+    robot: Robot,
+    track: Track,
+    trips: list[Span],
+    told: Mapping[str, Sequence[Event]],
+    duration: float,
+) -> Diary:
+    visits = _visits(told.get("visit", ()), duration)
+    return Diary(
         robot,
         track,
-        visits=_visits(told.get("visit", ()), duration),
-        loads=list(told.get("load", ())),
-        energy=list(told.get("energy", ())),
+        doings(track, visits, trips, told, duration),
+        trips,
+        visits,
+        list(told.get("load", ())),
+        list(told.get("energy", ())),
     )
-    diary.trips = _trips(told.get("decision", ()), diary.visits, duration)
-    trips = [Span(trip.start, trip.end, trip.decision) for trip in diary.trips]
-    diary.doings = doings(track, diary.visits, trips, told, duration)
-    return diary
 
 
-def driven(robot: Robot, pieces: Sequence[Event]) -> Track:
-    """Return all that a robot drove as one track that begins at 0 s."""
-    x, y, theta = robot.start
-    rows = {"t": [[0.0]], "x": [[x]], "y": [[y]], "theta": [[theta]]}
-    modes: list[str | None] = [robot.start_mode]
-    for piece in sorted(pieces, key=lambda each: float(each["t"][0])):
-        for name, parts in rows.items():
-            parts.append(piece[name])
-        modes += piece.get("mode") or [None] * len(piece["t"])
-    arrays = {name: np.concatenate(parts).astype(np.float64) for name, parts in rows.items()}
-    return Track(**arrays, mode=tuple(modes))
+def _trips(trace: Trace) -> dict[str, list[Span]]:
+    """Pair trips with their decisions: each committed one begins a trip of its robot."""
+    found: dict[str, list[Span]] = {robot.id: [] for robot in trace.robots}
+    decisions: dict[str, list[Event]] = {robot.id: [] for robot in trace.robots}
+    for event in trace.of("decision"):
+        if event.get("robot") in decisions and event.get("outcome", "committed") == "committed":
+            decisions[event["robot"]].append(event)
+    for trip in trip_spans(trace):
+        made = found[trip.robot]
+        made.append(Span(trip.begin, trip.end, decisions[trip.robot][len(made)]))
+    return found
 
 
 def _visits(told: Sequence[Event], duration: float) -> list[Span]:
@@ -161,26 +160,6 @@ def _visits(told: Sequence[Event], duration: float) -> list[Span]:
             found.append(Span(event["t"], duration, event))
         elif found and found[-1].end == duration:
             found[-1] = found[-1]._replace(end=event["t"])
-    return found
-
-
-def _trips(told: Sequence[Event], visits: Sequence[Span], duration: float) -> list[TripSpan]:
-    """Follow trips through their visits: a decision's ``arrive`` tells how many it has."""
-    found: list[TripSpan] = []
-    first = 0
-    for event in told:
-        if event.get("outcome") == "refused":
-            continue
-        at = float(event["t"])
-        if found and found[-1].end > at and found[-1].decision.get("purpose") in _OWN:
-            found[-1] = found[-1]._replace(end=at)
-        begin = max(at, found[-1].end) if found else at
-        while first < len(visits) and visits[first].start < begin - 1e-6:
-            first += 1
-        last = first + max(1, len(event.get("arrive") or ())) - 1
-        end = visits[last].end if last < len(visits) else duration
-        found.append(TripSpan(begin, max(begin, end), event))
-        first = last + 1
     return found
 
 

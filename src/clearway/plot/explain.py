@@ -141,14 +141,14 @@ def _link(
 ) -> Link:
     diary = chronicle.diaries[robot]
     trip = diary.trip(time)
-    order = trip.decision.get("order") if trip else None
+    order = trip.event.get("order") if trip else None
     decisions = chronicle.decisions.get(order, []) if order else []
     lines: list[str] = []
     chosen: tuple[Event, ...] = ()
     if trip:
         lines = of_trip(trip, chronicle.orders.get(order, []) if order else [], decisions)
-        first = decisions[:1] if decisions and decisions[0] is not trip.decision else []
-        chosen = (*first, trip.decision)
+        first = decisions[:1] if decisions and decisions[0] is not trip.event else []
+        chosen = (*first, trip.event)
     loads = [event for event in diary.loads if event["t"] <= time]
     levels = [event for event in diary.energy if event["t"] <= time]
     return Link(
@@ -159,7 +159,7 @@ def _link(
         sentences=(*held, of_doing(doing), *(lines[:1] if depth else lines)),
         causes=causes,
         order=order,
-        purpose=trip.decision.get("purpose") if trip else None,
+        purpose=trip.event.get("purpose") if trip else None,
         carries=tuple(loads[-1]["objects"]) if loads else (),
         energy=float(levels[-1]["level"]) if levels else None,
         decisions=chosen,

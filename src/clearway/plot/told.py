@@ -5,8 +5,8 @@ They hold for as long as what they tell of, so a page can carry them and show ea
 
 from collections.abc import Sequence
 
-from clearway.plot.chronicle import Hold, TripSpan
-from clearway.plot.doings import Doing, Event
+from clearway.plot.chronicle import Hold
+from clearway.plot.doings import Doing, Event, Span
 
 # Beyond these many, alternatives and turning points are counted instead of named.
 NAMED = 4
@@ -81,7 +81,7 @@ def of_doing(doing: Doing) -> str:
     return f"Stands {since}; the trace does not say why."
 
 
-def of_trip(trip: TripSpan, order: Sequence[Event], decisions: Sequence[Event]) -> list[str]:
+def of_trip(trip: Span, order: Sequence[Event], decisions: Sequence[Event]) -> list[str]:
     """Tell what a trip is for, how it was chosen, and its way.
 
     Parameters
@@ -89,7 +89,7 @@ def of_trip(trip: TripSpan, order: Sequence[Event], decisions: Sequence[Event]) 
     order, decisions
         Events of the order it serves, and the committed decisions for it.
     """
-    decision = trip.decision
+    decision = trip.event
     purpose, name = decision.get("purpose") or "order", decision.get("order")
     task = _TASKS.get(purpose, f"on a trip to {purpose}").format(name or "")
     lines = [f"Is {task}, since {seconds(trip.start)}{_order_facts(order)}."]
