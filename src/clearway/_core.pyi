@@ -1039,16 +1039,6 @@ class RouteSearch:
 
 class TailParams:
     """Parameters of always-complete planning."""
-class CommittedPath:
-    """A robot's whole motion, cut into cells."""
-
-    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
-
-    @property
-    def num_cells(self) -> int: ...
-
-class PathParams:
-    """How exactly places of conflict are told."""
 
     def __init__(self) -> None: ...
 
@@ -1202,6 +1192,26 @@ class TailPlanner:
 
     def rebuild(self, statics: Sequence[Sequence[Statics]]) -> None:
         """Take over what stands, for each model and body."""
+
+class CommittedPath:
+    """A robot's whole motion, cut into cells."""
+
+    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
+
+    @property
+    def num_cells(self) -> int: ...
+
+class PathParams:
+    """How exactly places of conflict are told."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
     @property
     def finest(self) -> float: ...
 

@@ -1,7 +1,7 @@
 """Trips of grid robots from endpoint to endpoint, one committed after the other."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -106,6 +106,11 @@ class LaneTrips:
         self.counts.trips += 1
         self.counts.waits += len(commitment.waits)
         return commitment
+
+    @property
+    def counters(self) -> Mapping[str, int]:
+        """What planning has come to so far."""
+        return asdict(self.counts)
 
     def commitment(self, robot: str) -> Commitment:
         """Return what a robot is committed to; standing at its start before its first trip."""
