@@ -206,6 +206,13 @@ def run_schema(arguments: argparse.Namespace) -> int:
     return DONE
 
 
+def run_explain(arguments: argparse.Namespace) -> int:
+    """Tell why a robot does what it does."""
+    from clearway.cli.explain_command import run_explain
+
+    return run_explain(arguments)
+
+
 def run_bench(arguments: argparse.Namespace) -> int:
     """Plan a set of instances and write a row for each."""
     from clearway.study.bench import bench_warehouse
@@ -299,12 +306,21 @@ def run_study(arguments: argparse.Namespace) -> int:
     return run_study(arguments)
 
 
+def run_simulate(arguments: argparse.Namespace) -> int:
+    """Run a scenario file through time."""
+    from clearway.cli.simulate_command import run_simulate
+
+    return run_simulate(arguments)
+
+
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "bench": run_bench,
     "check": run_check,
     "demo": run_demo,
+    "explain": run_explain,
     "generate": run_generate,
     "schema": run_schema,
+    "simulate": run_simulate,
     "solve": run_solve,
     "study": run_study,
     "validate": run_validate,
