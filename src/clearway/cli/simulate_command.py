@@ -15,7 +15,8 @@ from clearway.formats.scenario_file import read_scenario
 from clearway.formats.trace_file import TraceWriter
 from clearway.formats.trace_parse import read_trace
 from clearway.formats.trace_plan import plan_of
-from clearway.metrics.trace_metrics import to_json, told, trace_metrics
+from clearway.metrics.trace_metrics import trace_metrics, trace_to_json
+from clearway.metrics.trace_table import told
 from clearway.model import Scenario, Trace
 from clearway.protocols import Budget
 from clearway.simulate.events import Record
@@ -72,9 +73,9 @@ def _write(trace: Trace, violations: list[Violation], out: Path) -> list[Path]:
     files = [out / "trace.jsonl", out / "scenario.toml"]
     files += [out / name for name in ("plan.json", "metrics.json", "report.html", "plan.png")]
     write_plan(plan_of(trace), out / "plan.json")
-    figures = {**to_json(metrics), "violations": len(violations)}
+    figures = {**trace_to_json(metrics), "violations": len(violations)}
     write_text(out / "metrics.json", json.dumps(figures, indent=2) + "\n")
-    write_trace_report(trace, metrics, out / "report.html")
+    write_trace_report(trace, metrics, out / "report.html", len(violations))
     draw_trace(trace, out / "plan.png")
     return files
 
@@ -90,7 +91,7 @@ def _tell(
     metrics = trace_metrics(trace)
     if arguments.json:
         summary: dict[str, Any] = {
-            **to_json(metrics),
+            **trace_to_json(metrics),
             "scenario": scenario.name,
             "seed": trace.seed,
             "status": run.status,

@@ -38,7 +38,7 @@ def shelf_places(chronicle: Chronicle) -> dict[str, list[Change]]:
         return {}
     found: dict[str, list[Change]] = {}
     for name in names:
-        later = sorted(changes.get(name, []))
+        later = sorted(changes.get(name, []), key=lambda change: change.time)
         is_put_first = bool(later) and later[0].shelf is not None
         found[name] = [Change(0.0, None if is_put_first else name), *later]
     return found

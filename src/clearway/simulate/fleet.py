@@ -53,6 +53,8 @@ class SimulatedFleet:
         self._trips: dict[str, Trip | None] = {robot.id: None for robot in robots}
         self._since = {robot.id: 0 for robot in robots}  # when its trip began
         self._moved = {robot.id: 0 for robot in robots}  # ticks in motion since then
+        self._at_visits = {robot.id: 0 for robot in robots}  # ticks, since then
+        self._arrived: dict[str, int] = {}  # when, of those at a visit
         self._rest_at = {robot.id: 0 for robot in robots}
         self._objects: dict[str, tuple[str, ...]] = {robot.id: () for robot in robots}
         self._idle_for: dict[str, tuple[str, ...]] = {}
@@ -63,6 +65,8 @@ class SimulatedFleet:
         self._until = None if until is None else to_ticks(until)
         self._now, self._wake = 0, None
         self._open: set[str] = set()
+        self._taken: set[str] = set()
+        self._assigned: set[str | None] = set()  # but not started
         self._done, self._failed = 0, 0
         self._last_done = 0
         self._waited = 0
@@ -145,7 +149,7 @@ class SimulatedFleet:
         for robot in self._trips:
             self._flush(robot)
             if self._trips[robot] is not None:
-                self._account(robot, ())
+                self._account(robot)
         self._record(
             {
                 "event": "end",
@@ -199,14 +203,17 @@ class SimulatedFleet:
         self._flush(robot)
         self._record(events.visit(one.tick, robot, trip, one.visit, one.kind))
         if one.kind == "arrived":
-            if one.visit == 0 and trip.order is not None and trip.order in self._open:
+            self._arrived[robot] = one.tick
+            if trip.order in self._assigned:
+                self._assigned.discard(trip.order)
                 self._record(events.order(one.tick, trip.order, "started", robot=robot))
             return False
+        self._at_visits[robot] += one.tick - self._arrived.pop(robot)
         last = one.visit == len(trip.visits) - 1
         self._load(one.tick, trip, trip.visits[one.visit], last)
         if not last:
             return False
-        self._account(robot, trip.visits)
+        self._account(robot)
         self._trips[robot] = None
         self._left_idle.append(robot)
         self._charge(one.tick, robot, trip)
@@ -237,7 +244,9 @@ class SimulatedFleet:
 
     def _take(self, trip: Trip) -> None:
         assert trip.order is not None
-        if trip.purpose in ("order", "fetch"):
+        if trip.order not in self._taken:
+            self._taken.add(trip.order)
+            self._assigned.add(trip.order)
             self._record(events.order(self._now, trip.order, "assigned", robot=trip.robot))
             self._arriving.taken(trip.order, self._now)
 
@@ -245,7 +254,8 @@ class SimulatedFleet:
         self._trips[robot] = trip
         if trip is None:
             self._left_idle.append(robot)
-        self._since[robot], self._moved[robot] = self._now, 0
+        self._since[robot], self._moved[robot], self._at_visits[robot] = self._now, 0, 0
+        self._arrived.pop(robot, None)
 
     def _flush(self, robot: str) -> None:
         """Write what has been driven, and count it."""
@@ -261,11 +271,11 @@ class SimulatedFleet:
         if battery is not None:
             self._level[robot] = max(0.0, self._level[robot] - to_seconds(moved) / battery.capacity)
 
-    def _account(self, robot: str, served: tuple[Visit, ...]) -> None:
-        """Count the standing of a trip that was no service."""
-        services = sum(to_ticks(visit.service) for visit in served)
+    def _account(self, robot: str) -> None:
+        """Count the standing of a trip that was not at a visit."""
+        at_visits = self._at_visits[robot] + self._now - self._arrived.get(robot, self._now)
         lasted = self._now - self._since[robot]
-        self._waited += max(0, lasted - self._moved[robot] - services)
+        self._waited += max(0, lasted - self._moved[robot] - at_visits)
 
     def _find(self) -> tuple[Obstacle, ...]:
         found: list[Obstacle] = []

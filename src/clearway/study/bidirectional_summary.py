@@ -116,13 +116,13 @@ def _judged(rows: Sequence[Row]) -> str:
 
 
 def _chart(name: str, along: str, rows: Sequence[Row]) -> Chart:
-    def curve(
-        pick: Callable[[int], Sequence[Row]], places: Sequence[int]
-    ) -> list[tuple[float, Estimate]]:
-        values = [(float(place), [row["makespan"] for row in pick(place)]) for place in places]
-        return [(place, statistics.mean(found)) for place, found in values if found]
+    def curve(layout: str, method: str, value: str = "makespan") -> list[tuple[float, Estimate]]:
+        here = _pick(rows, layout=layout, method=method)
+        return [
+            (float(p), statistics.mean([row[value] for row in _pick(here, **{along: p})]))
+            for p in _places(here, along)
+        ]
 
-    places = _places(rows, along)
     rules = [
         Series.of(f"{layout}, paper's rules", curve(layout, "paper"), colour=colour)
         for colour, layout in enumerate((BI, *ONE_WAYS))
