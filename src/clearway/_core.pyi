@@ -1245,6 +1245,11 @@ def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int,
     Where two committed motions need the same floor, whatever their times become.
     """
 
+def paths_overlap(a: CommittedPath, from_a: int, to_a: int, b: CommittedPath, from_b: int, to_b: int) -> bool:
+    """
+    Whether bodies are in each other for some tick of each of two stretches.
+    """
+
 class AssignmentCosts:
     """What it costs robots to go from task to task."""
 
