@@ -919,6 +919,100 @@ class ConflictAnswer:
 def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
     """Plan a team by conflict-based search on bodies."""
 
+class CellStay:
+    """One cell of a timed route; times in ticks."""
+
+    def __init__(self, cell: int, arrive: int, depart: int, turn_begin: int = 0, turn_end: int = 0) -> None: ...
+
+    @property
+    def cell(self) -> int:
+        """y times width plus x."""
+
+    @property
+    def arrive(self) -> int: ...
+
+    @property
+    def depart(self) -> int:
+        """`NEVER` of the last one."""
+
+    @property
+    def turn_begin(self) -> int: ...
+
+    @property
+    def turn_end(self) -> int: ...
+
+class Clash:
+    """Two robots that hold a cell at once, or turn side by side."""
+
+    @property
+    def cell(self) -> int: ...
+
+    @property
+    def index(self) -> int:
+        """Of the cell in the route asked about."""
+
+    @property
+    def other(self) -> int:
+        """The robot in the way."""
+
+    @property
+    def other_index(self) -> int:
+        """Of the cell in its route."""
+
+    @property
+    def at(self) -> int:
+        """Tick at which both begin to hold it."""
+
+class CellHolds:
+    """Who holds which cell of a lane grid when."""
+
+    def __init__(self, width: int, height: int, num_robots: int, step: int, wide: bool = False) -> None: ...
+
+    def put(self, robot: int, route: Sequence[CellStay]) -> None:
+        """Replace what a robot holds by a timed route."""
+
+    def remove(self, robot: int) -> None: ...
+
+    def route(self, robot: int) -> list[CellStay]: ...
+
+    def clashes(self, robot: int, route: Sequence[CellStay]) -> list[Clash]:
+        """
+        Conflicts of a timed route with what all others hold, by their moments.
+        """
+
+    def holders(self, cell: int, since: int) -> list[int]:
+        """Robots that hold a cell after a tick."""
+
+class LaneWay:
+    """What a search over a lane grid found."""
+
+    @property
+    def found(self) -> bool: ...
+
+    @property
+    def stays(self) -> list[CellStay]: ...
+
+    @property
+    def behind(self) -> list[int]:
+        """Per stay: the robot waited for there before it departs; -1: nobody."""
+
+    @property
+    def ready(self) -> int:
+        """Tick at which it has turned to its last heading."""
+
+    @property
+    def expansions(self) -> int: ...
+
+class LaneSearch:
+    """Earliest way over a lane grid past what others hold."""
+
+    def __init__(self, holds: CellHolds, may_wait: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], turn: int) -> None: ...
+
+    def __call__(self, holds: CellHolds, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
+        """
+        `moves` holds bits of the legal directions out of each cell; the earliest arrival wins.
+        """
+
 class LoneLeg:
     """From one pose to another, with a body."""
 
@@ -928,6 +1022,20 @@ def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) ->
     """
     Ticks that each leg takes with nobody else on the site; -1 where no way is found.
     """
+
+class RouteSearch:
+    """Best routes over square cells with legal moves."""
+
+    def __init__(self, lanes: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], step: int, turn: int) -> None: ...
+
+    def __call__(self, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], start: int, goal: int, heading: int) -> list[int]:
+        """
+        Cells (numbered row by row) from start to goal; none where there is no way.
+        """
+
+    @property
+    def expansions(self) -> int:
+        """Nodes expanded in the last search."""
 
 class TailParams:
     """Parameters of always-complete planning."""
@@ -1084,6 +1192,48 @@ class TailPlanner:
 
     def rebuild(self, statics: Sequence[Sequence[Statics]]) -> None:
         """Take over what stands, for each model and body."""
+
+class CommittedPath:
+    """A robot's whole motion, cut into cells."""
+
+    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
+
+    @property
+    def num_cells(self) -> int: ...
+
+class PathParams:
+    """How exactly places of conflict are told."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+    @property
+    def finest(self) -> float: ...
+
+    @finest.setter
+    def finest(self, arg: float, /) -> None: ...
+
+class PathConflicts:
+    """What two robots wait for: (at, passed), rising."""
+
+    @property
+    def first(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def second(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def meeting(self) -> int: ...
+
+def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
+    """
+    Where two committed motions need the same floor, whatever their times become.
+    """
 
 class AssignmentCosts:
     """What it costs robots to go from task to task."""

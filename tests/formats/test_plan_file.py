@@ -65,7 +65,7 @@ def full_record() -> PlanRecord:
         0.5,
         2,
         frozenset({"lift", "fork"}),
-        Battery(3600.0, 0.3),
+        Battery(3600.0, 0.3, 600.0, 0.9),
         "four_wheel",
     )
     puck = RobotType("puck", Footprint(radius=0.25), "holonomic", Limits(1.0))
@@ -79,7 +79,7 @@ def full_record() -> PlanRecord:
         status=Status.STOPPED,
         site=site,
         robot_types={"lift": lift, "puck": puck},
-        robots=(Robot("r1", "lift", start, 0.25, "forward"), Robot("r2", "puck", start)),
+        robots=(Robot("r1", "lift", start, 0.25, "forward", 0.4), Robot("r2", "puck", start)),
         tours={
             "r1": (Visit("t1", path.final_pose, 2.0, "pick", "lift", ("r2",), 1.5, ("t0",), 3.0),),
             "r2": (Visit(None, start),),

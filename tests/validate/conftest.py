@@ -4,6 +4,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from tests.data.bad_traces import make
 
 HERE = Path(__file__).parent
 
@@ -20,6 +21,12 @@ def load(path: Path) -> ModuleType:
 def by_hand() -> ModuleType:
     """The small plans of tests/data, and what they are built with."""
     return load(HERE.parent / "data" / "bad_plans" / "make.py")
+
+
+@pytest.fixture(scope="session")
+def traces() -> ModuleType:
+    """The small traces of tests/data, and what they are built with."""
+    return make
 
 
 @pytest.fixture(scope="session")

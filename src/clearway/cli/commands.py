@@ -192,37 +192,10 @@ def run_check(arguments: argparse.Namespace) -> int:
 
 
 def run_validate(arguments: argparse.Namespace) -> int:
-    """Judge a plan file, or the plan of a run folder."""
-    from clearway.formats.plan_file import read_plan
-    from clearway.validate import validate_plan
+    """Judge a plan or a trace."""
+    from clearway.cli.validate_command import run_validate
 
-    path = Path(arguments.path)
-    path = path / "plan.json" if path.is_dir() else path
-    violations = validate_plan(read_plan(path))
-    if arguments.json:
-        _print_json(
-            {
-                "file": str(path),
-                "right": not violations,
-                "violations": [
-                    {
-                        "kind": v.kind,
-                        "robots": list(v.robots),
-                        "time": v.time,
-                        "place": list(v.place),
-                        "depth": v.depth,
-                        "text": v.text,
-                    }
-                    for v in violations
-                ],
-            }
-        )
-    else:
-        for violation in violations:
-            print(violation)
-        if not arguments.quiet:
-            print(f"{path}: " + (f"{len(violations)} wrong" if violations else "nothing wrong"))
-    return WRONG if violations else DONE
+    return run_validate(arguments)
 
 
 def run_schema(arguments: argparse.Namespace) -> int:
@@ -231,6 +204,13 @@ def run_schema(arguments: argparse.Namespace) -> int:
 
     print(json.dumps(scenario_schema(), indent=None if arguments.json else 2))
     return DONE
+
+
+def run_explain(arguments: argparse.Namespace) -> int:
+    """Tell why a robot does what it does."""
+    from clearway.cli.explain_command import run_explain
+
+    return run_explain(arguments)
 
 
 def run_bench(arguments: argparse.Namespace) -> int:
@@ -326,12 +306,21 @@ def run_study(arguments: argparse.Namespace) -> int:
     return run_study(arguments)
 
 
+def run_simulate(arguments: argparse.Namespace) -> int:
+    """Run a scenario file through time."""
+    from clearway.cli.simulate_command import run_simulate
+
+    return run_simulate(arguments)
+
+
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "bench": run_bench,
     "check": run_check,
     "demo": run_demo,
+    "explain": run_explain,
     "generate": run_generate,
     "schema": run_schema,
+    "simulate": run_simulate,
     "solve": run_solve,
     "study": run_study,
     "validate": run_validate,

@@ -77,6 +77,13 @@ def _parser() -> argparse.ArgumentParser:
     solve = commands.add_parser("solve", parents=[talk, search], help="assign and plan a scenario")
     solve.add_argument("scenario", metavar="SCENARIO.toml")
     solve.add_argument("--out", required=True, metavar="RUN/", help="folder for plan and report")
+    simulate = commands.add_parser(
+        "simulate", parents=[talk, search], help="run a scenario through time: orders that arrive"
+    )
+    simulate.add_argument("scenario", metavar="SCENARIO.toml")
+    simulate.add_argument(
+        "--out", required=True, metavar="RUN/", help="folder for trace and report"
+    )
     demo = commands.add_parser("demo", parents=[talk, search], help="a warehouse with 8 robots")
     demo.add_argument("--out", default="demo-run", metavar="RUN/", help="default: demo-run")
     check = commands.add_parser(
@@ -84,8 +91,14 @@ def _parser() -> argparse.ArgumentParser:
     )
     check.add_argument("scenario", metavar="SCENARIO.toml")
     check.add_argument("--out", metavar="DIR/", help="draw the site into this folder")
-    validate = commands.add_parser("validate", parents=[talk], help="judge a plan")
-    validate.add_argument("path", metavar="RUN/ or plan.json")
+    validate = commands.add_parser("validate", parents=[talk], help="judge a plan or a trace")
+    validate.add_argument("path", metavar="RUN/, plan.json or trace.jsonl")
+    explain = commands.add_parser("explain", parents=[talk], help="why a robot does what it does")
+    explain.add_argument("path", metavar="RUN/ or trace.jsonl")
+    explain.add_argument("--robot", required=True, metavar="ID")
+    explain.add_argument(
+        "--at", required=True, type=_number, metavar="T", help="seconds from the run's beginning"
+    )
     commands.add_parser("schema", parents=[talk], help="JSON Schema of scenario files")
     bench = commands.add_parser(
         "bench", parents=[talk, search], help="a set of instances, one row each"

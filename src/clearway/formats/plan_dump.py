@@ -62,10 +62,10 @@ def _entries(record: PlanRecord) -> Iterator[tuple[str, str]]:
         "timings": record.timings,
     }
     yield from ((name, _json(value, name)) for name, value in head.items())
-    yield "site", _lines(_site(record.site), "site")
-    types = {name: _robot_type(kind) for name, kind in record.robot_types.items()}
+    yield "site", _lines(site_json(record.site), "site")
+    types = {name: robot_type_json(kind) for name, kind in record.robot_types.items()}
     yield "robot_types", _lines(types, "robot_types")
-    robots = [_robot(robot, record.tours.get(robot.id, ())) for robot in record.robots]
+    robots = [robot_json(robot, record.tours.get(robot.id, ())) for robot in record.robots]
     rows = [_json(row, f"robots[{i}]") for i, row in enumerate(robots)]
     yield "robots", "[\n  " + ",\n  ".join(rows) + "\n]" if rows else "[]"
     yield "assignment", _lines({k: list(v) for k, v in record.assignment.items()}, "assignment")
@@ -111,7 +111,8 @@ def _point(point: Sequence[float]) -> list[float]:
     return [float(value) for value in point]
 
 
-def _site(site: Site) -> dict[str, Any]:
+def site_json(site: Site) -> dict[str, Any]:
+    """Return a site as plan and trace files write it."""
     content: dict[str, Any] = {"bounds": site.bounds, "border": site.border}
     content["obstacles"] = [_obstacle(obstacle) for obstacle in site.obstacles]
     content["zones"] = [_zone(zone) for zone in site.zones]
@@ -140,7 +141,8 @@ def _given(**values: Any) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value is not None}
 
 
-def _robot_type(kind: RobotType) -> dict[str, Any]:
+def robot_type_json(kind: RobotType) -> dict[str, Any]:
+    """Return a robot type as plan and trace files write it."""
     content: dict[str, Any] = {"footprint": _footprint(kind.footprint)}
     if kind.loaded_footprint is not None:
         content["loaded_footprint"] = _footprint(kind.loaded_footprint)
@@ -163,7 +165,12 @@ def _robot_type(kind: RobotType) -> dict[str, Any]:
 
 
 def _battery(battery: Battery) -> dict[str, float]:
-    return {"capacity": float(battery.capacity), "reserve": float(battery.reserve)}
+    content = {"capacity": float(battery.capacity), "reserve": float(battery.reserve)}
+    plain = Battery(battery.capacity, battery.reserve)
+    for name in ("charging", "full"):
+        if getattr(battery, name) != getattr(plain, name):
+            content[name] = float(getattr(battery, name))
+    return content
 
 
 def _limits(limits: Limits) -> dict[str, float]:
@@ -180,11 +187,14 @@ def _footprint(footprint: Footprint) -> Any:
     return footprint.parts[0] if len(footprint.parts) == 1 else footprint.parts
 
 
-def _robot(robot: Robot, visits: tuple[Visit, ...]) -> dict[str, Any]:
+def robot_json(robot: Robot, visits: tuple[Visit, ...]) -> dict[str, Any]:
+    """Return a robot with its visits as plan and trace files write it."""
     content: dict[str, Any] = {"id": robot.id, "type": robot.type, "start": robot.start}
     if robot.start_speed:
         content["start_speed"] = float(robot.start_speed)
     content |= _given(start_mode=robot.start_mode)
+    if robot.energy != 1.0:
+        content["energy"] = float(robot.energy)
     content["visits"] = [_visit(visit) for visit in visits]
     return content
 

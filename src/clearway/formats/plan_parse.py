@@ -25,12 +25,9 @@ def parse_plan(text: str, file: str = "plan.json") -> PlanRecord:
     if form.value != PLAN_FORMAT:
         form.fail("not a plan file", f'plan files say "format": "{PLAN_FORMAT}"')
     site = site_of(root["site"])
-    types = {name: _robot_type(name, node) for name, node in root["robot_types"].items()}
-    robots = tuple(_robot(node, types) for node in root["robots"].elements())
+    types = robot_types_of(root["robot_types"])
+    robots = robots_of(root["robots"], types)
     ids = [robot.id for robot in robots]
-    for node, name in zip(root["robots"].elements(), ids, strict=True):
-        if ids.count(name) > 1:
-            node["id"].fail("two robots have this id", "give each its own")
     tours = {
         robot.id: visits_of(node["visits"], set(ids))
         for robot, node in zip(robots, root["robots"].elements(), strict=True)
@@ -40,8 +37,8 @@ def parse_plan(text: str, file: str = "plan.json") -> PlanRecord:
     if until.given and until.number() < 0.0:
         until.fail("must be 0 or above", "null means for ever")
     return PlanRecord(
-        scenario=_text_or(root["scenario"], ""),
-        system=_text_or(root["system"], ""),
+        scenario=text_or(root["scenario"], ""),
+        system=text_or(root["system"], ""),
         seed=root["seed"].integer() if root["seed"].given else 0,
         status=_status(root["status"]),
         site=site,
@@ -57,20 +54,37 @@ def parse_plan(text: str, file: str = "plan.json") -> PlanRecord:
         cost=root["cost"].number_or_none(),
         cost_name=root["cost_name"].text() if root["cost_name"].given else None,
         cost_lower_bound=root["cost_lower_bound"].number_or_none(),
-        discrete_bound=_free(root["discrete_bound"]) if root["discrete_bound"].given else None,
+        discrete_bound=free_of(root["discrete_bound"]) if root["discrete_bound"].given else None,
         conflict_free_until=until.number_or_none(),
         paths=paths_of(root["pieces"], tracks) if root["pieces"].given else {},
-        parameters=_free(root["parameters"]) if root["parameters"].given else {},
-        timings=_free(root["timings"]) if root["timings"].given else {},
-        version=_text_or(root["clearway"], ""),
+        parameters=free_of(root["parameters"]) if root["parameters"].given else {},
+        timings=free_of(root["timings"]) if root["timings"].given else {},
+        version=text_or(root["clearway"], ""),
     )
 
 
-def _text_or(node: Node, default: str) -> str:
+def robot_types_of(node: Node) -> dict[str, RobotType]:
+    """Return the robot types by name."""
+    return {name: _robot_type(name, inner) for name, inner in node.items()}
+
+
+def robots_of(node: Node, types: dict[str, RobotType]) -> tuple[Robot, ...]:
+    """Return the robots, each of one of ``types`` and with an id of its own."""
+    robots = tuple(_robot(inner, types) for inner in node.elements())
+    ids = [robot.id for robot in robots]
+    for inner, name in zip(node.elements(), ids, strict=True):
+        if ids.count(name) > 1:
+            inner["id"].fail("two robots have this id", "give each its own")
+    return robots
+
+
+def text_or(node: Node, default: str) -> str:
+    """Return a string, or ``default`` where there is none."""
     return node.text() if node.given else default
 
 
-def _free(node: Node) -> dict[str, object]:
+def free_of(node: Node) -> dict[str, object]:
+    """Return an object of any JSON values."""
     return {name: inner.free() for name, inner in node.items()}
 
 
@@ -109,22 +123,26 @@ def _robot_type(name: str, node: Node) -> RobotType:
 
 
 def _battery(node: Node) -> Battery:
-    reserve = node["reserve"]
-    if not reserve.given:
-        return Battery(node["capacity"].number())
-    return Battery(node["capacity"].number(), reserve.number())
+    names = ("reserve", "charging", "full")
+    given = {name: node[name].number() for name in names if node[name].given}
+    return Battery(node["capacity"].number(), **given)
 
 
 def _robot(node: Node, types: dict[str, RobotType]) -> Robot:
     kind, speed, mode = node["type"], node["start_speed"], node["start_mode"]
+    energy = node["energy"]
     if kind.text() not in types:
         kind.fail("unknown robot type", f"known: {', '.join(types) or 'none'}")
-    return Robot(
-        id=node["id"].text(),
-        type=kind.text(),
-        start=pose_of(node["start"]),
-        start_speed=speed.number() if speed.given else 0.0,
-        start_mode=mode.text() if mode.given else None,
+    return built(
+        node,
+        lambda: Robot(
+            id=node["id"].text(),
+            type=kind.text(),
+            start=pose_of(node["start"]),
+            start_speed=speed.number() if speed.given else 0.0,
+            start_mode=mode.text() if mode.given else None,
+            energy=energy.number() if energy.given else 1.0,
+        ),
     )
 
 

@@ -1,6 +1,7 @@
 """The nouns: frozen data, checked when built."""
 
 from clearway.model.clock import TICKS_PER_SECOND, to_seconds, to_ticks
+from clearway.model.driven import tracks_of
 from clearway.model.footprint import Footprint, Point, Polygon
 from clearway.model.plan import Assignment, Plan, Status
 from clearway.model.pose import Pose, wrap
@@ -14,6 +15,7 @@ from clearway.model.task import LOAD_CHANGE, Order, Task, Visit
 from clearway.model.trace import Trace
 from clearway.model.trajectory import Piece, Stop, Trajectory
 from clearway.model.trip import Commitment, Trip, Wait
+from clearway.model.trip_spans import TripSpan, trip_spans
 
 __all__ = [
     "FOUR_WHEEL_MODES",
@@ -51,10 +53,13 @@ __all__ = [
     "Track",
     "Trajectory",
     "Trip",
+    "TripSpan",
     "Visit",
     "Wait",
     "Zone",
     "to_seconds",
     "to_ticks",
+    "tracks_of",
+    "trip_spans",
     "wrap",
 ]

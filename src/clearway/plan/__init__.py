@@ -2,6 +2,7 @@
 
 from clearway.plan.conflict_based import ConflictBasedSearch, ConflictParams
 from clearway.plan.in_turn import InTurn
+from clearway.plan.lane_trips import LaneTrips
 from clearway.plan.prioritised import Aim, PrioritisedPlanner, TeamParams
 
 __all__ = [
@@ -9,6 +10,7 @@ __all__ = [
     "ConflictBasedSearch",
     "ConflictParams",
     "InTurn",
+    "LaneTrips",
     "PrioritisedPlanner",
     "TeamParams",
 ]

@@ -6,7 +6,12 @@ from clearway import _core
 from clearway.model import Commitment, Trajectory, Wait, to_seconds, to_ticks
 from clearway.plan.native_type import NativeType
 
-SHARES = (1.0, 0.75, 0.5, 0.25)  # of a wait by which the motion is moved forward to see whom it meets
+SHARES = (
+    1.0,
+    0.75,
+    0.5,
+    0.25,
+)  # of a wait by which the motion is moved forward to see whom it meets
 
 
 def named_waits(
@@ -73,7 +78,10 @@ def _named(
     if trajectory.timing[following][0] != end:
         return Wait(begin, end, ("visit time",), "its service may not begin before")
     last = following + 1
-    while last < len(trajectory.timing) and trajectory.timing[last][0] == trajectory.timing[last - 1][1]:
+    while (
+        last < len(trajectory.timing)
+        and trajectory.timing[last][0] == trajectory.timing[last - 1][1]
+    ):
         last += 1
     motion = (trajectory.pieces[following:last], trajectory.timing[following:last])
     pieces = kind.timed(motion, end, motion[1][-1][1], 0)

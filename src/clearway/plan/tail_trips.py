@@ -123,7 +123,9 @@ class TailTrips:
             reason = "with nobody else on the site no way leads through the visits to a bay"
             return Refusal(reason, for_good=True, expansions=spent)
         if not tail.found and effort >= self.params.last_resort:
-            kept = self._cut(trip.robot, now, max(self._core.settled(i) for i in range(len(self._ids))))
+            kept = self._cut(
+                trip.robot, now, max(self._core.settled(i) for i in range(len(self._ids)))
+            )
             query = self._query(trip.robot, now, kept, trip.visits, rests)
             query.limit = self.params.search_limit * effort
             tail = self._core.plan(query)

@@ -19,9 +19,9 @@ def payload(record: PlanRecord, metrics: Metrics) -> dict[str, Any]:
         "duration": max(
             [metrics.duration, metrics.makespan, *(t.t[-1] for t in record.tracks.values())]
         ),
-        "site": _site(record.site),
+        "site": site_of(record.site),
         "types": {
-            name: {"body": _shape(kind.footprint), "loaded": _shape(kind.shape(loaded=True))}
+            name: {"body": shape_of(kind.footprint), "loaded": shape_of(kind.shape(loaded=True))}
             for name, kind in record.robot_types.items()
         },
         "robots": [
@@ -36,13 +36,13 @@ def payload(record: PlanRecord, metrics: Metrics) -> dict[str, Any]:
             for index, robot in enumerate(record.robots)
         ],
         "metrics": to_json(metrics),
-        "bound_on_graph": _flat(record.discrete_bound or {}),
+        "bound_on_graph": flat(record.discrete_bound or {}),
         "run": {
             "scenario": record.scenario,
             "system": record.system,
             "seed": str(record.seed),
             "clearway": record.version,
-            **_flat(record.parameters),
+            **flat(record.parameters),
         },
     }
 
@@ -74,32 +74,7 @@ def carrying(tour: tuple[Visit, ...], made: tuple[VisitTime, ...]) -> list[list[
     return spans
 
 
-def _robot(record: PlanRecord, robot: Robot) -> dict[str, Any]:
-    track = track_of(record, robot)
-    tour = record.tours.get(robot.id, ())
-    made = visit_times(record, robot)
-    times = {entry.visit: entry for entry in made}
-    return {
-        "id": robot.id,
-        "type": robot.type,
-        "start": list(robot.start),
-        "track": asdict(thin(track)),
-        "modes": _modes(track),
-        "carrying": carrying(tour, made),
-        "visits": [
-            {
-                "task": visit.task,
-                "pose": list(visit.pose),
-                "service": visit.service,
-                "arrive": round(times[index].arrive * 1000) if index in times else None,
-                "leave": round(times[index].leave * 1000) if index in times else None,
-            }
-            for index, visit in enumerate(tour)
-        ],
-    }
-
-
-def _modes(track: Track) -> list[tuple[int, str | None]]:
+def modes_of(track: Track) -> list[tuple[int, str | None]]:
     """Return ``(from, mode)`` where the mode changes (ms)."""
     changes: list[tuple[int, str | None]] = []
     for time, mode in zip(track.t.tolist(), track.mode, strict=True):
@@ -108,24 +83,26 @@ def _modes(track: Track) -> list[tuple[int, str | None]]:
     return changes
 
 
-def _flat(settings: Mapping[str, Any]) -> dict[str, str]:
+def flat(settings: Mapping[str, Any]) -> dict[str, str]:
     """Return nested settings as text, one line each: ``plan.weight`` -> ``1.05``."""
     lines: dict[str, str] = {}
     for name, value in settings.items():
         if isinstance(value, Mapping):
-            lines |= {f"{name}.{inner}": text for inner, text in _flat(value).items()}
+            lines |= {f"{name}.{inner}": text for inner, text in flat(value).items()}
         else:
             lines[name] = str(value)
     return lines
 
 
-def _shape(footprint: Footprint) -> dict[str, Any]:
+def shape_of(footprint: Footprint) -> dict[str, Any]:
+    """Return a body's radius, or its parts."""
     if footprint.radius:
         return {"radius": footprint.radius}
     return {"parts": footprint.parts}
 
 
-def _site(site: Site) -> dict[str, Any]:
+def site_of(site: Site) -> dict[str, Any]:
+    """Return bounds, obstacles and zones."""
     return {
         "bounds": site.bounds,
         "obstacles": [
@@ -139,5 +116,30 @@ def _site(site: Site) -> dict[str, Any]:
         ],
         "zones": [
             {"name": zone.name, "kind": zone.kind, "polygon": zone.polygon} for zone in site.zones
+        ],
+    }
+
+
+def _robot(record: PlanRecord, robot: Robot) -> dict[str, Any]:
+    track = track_of(record, robot)
+    tour = record.tours.get(robot.id, ())
+    made = visit_times(record, robot)
+    times = {entry.visit: entry for entry in made}
+    return {
+        "id": robot.id,
+        "type": robot.type,
+        "start": list(robot.start),
+        "track": asdict(thin(track)),
+        "modes": modes_of(track),
+        "carrying": carrying(tour, made),
+        "visits": [
+            {
+                "task": visit.task,
+                "pose": list(visit.pose),
+                "service": visit.service,
+                "arrive": round(times[index].arrive * 1000) if index in times else None,
+                "leave": round(times[index].leave * 1000) if index in times else None,
+            }
+            for index, visit in enumerate(tour)
         ],
     }

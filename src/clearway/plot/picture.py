@@ -26,7 +26,7 @@ def draw_plan(record: PlanRecord, path_png: Path) -> None:
 
     The picture is 1600 pixels wide; the same plan gives the same bytes.
     """
-    axes = _axes(record.site)
+    axes = axes_of(record.site)
     draw_floor(axes, record.site)
     for index, robot in enumerate(record.robots):
         colour = robot_colour(index)
@@ -50,8 +50,8 @@ def draw_plan(record: PlanRecord, path_png: Path) -> None:
         write(axes, float(track.x[-1]), float(track.y[-1]), robot.id, size + 1.0)
         if np.hypot(track.x[-1] - robot.start.x, track.y[-1] - robot.start.y) > 1e-3:
             write(axes, robot.start.x, robot.start.y, robot.id, size, MUTED)
-    _title(axes, record.scenario, ", ".join(_figures(record)))
-    _save(axes, path_png)
+    title(axes, record.scenario, ", ".join(_figures(record)))
+    save(axes, path_png)
 
 
 def draw_site(
@@ -69,7 +69,7 @@ def draw_site(
     marks
         ``(x, y, label)`` of places to look at, ringed in red.
     """
-    axes = _axes(site)
+    axes = axes_of(site)
     draw_floor(axes, site)
     size = 9.0 if len(robots) <= 12 else 7.5
     for index, robot in enumerate(robots):
@@ -83,8 +83,8 @@ def draw_site(
     draw_marks(axes, marks)
     counted = f"{len(robots)} robots at their starts (filled), {len(tasks)} tasks (dashed)"
     found = f", {len(marks)} places to look at (red)" if marks else ""
-    _title(axes, "Site", counted + found)
-    _save(axes, path_png)
+    title(axes, "Site", counted + found)
+    save(axes, path_png)
 
 
 def _outlines(
@@ -114,7 +114,8 @@ def _figures(record: PlanRecord) -> Iterator[str]:
         yield f"{100.0 * (record.sum_of_costs / record.lower_bound - 1.0):.1f} % above its bound"
 
 
-def _axes(site: Site) -> Axes:
+def axes_of(site: Site) -> Axes:
+    """Return the axes of a new picture, as wide as all and as high as the site asks."""
     width, depth = (max(values) - min(values) for values in zip(*site.bounds, strict=True))
     height = min(max((_WIDTH - 1.0) * depth / width, 4.0), 24.0) + _ROOM
     layout = ConstrainedLayoutEngine(w_pad=0.15, h_pad=0.15)
@@ -122,7 +123,8 @@ def _axes(site: Site) -> Axes:
     return figure.add_subplot()
 
 
-def _title(axes: Axes, name: str, figures: str) -> None:
+def title(axes: Axes, name: str, figures: str) -> None:
+    """Write a headline and the figures below it."""
     axes.set_title(name.replace("$", r"\$"), loc="left", fontsize=17, color=INK, pad=26)
     axes.annotate(
         figures,
@@ -136,7 +138,8 @@ def _title(axes: Axes, name: str, figures: str) -> None:
     )
 
 
-def _save(axes: Axes, path: Path) -> None:
+def save(axes: Axes, path: Path) -> None:
+    """Write the picture, the same bytes for the same picture."""
     content = io.BytesIO()
     figure = axes.get_figure(root=True)
     assert figure is not None

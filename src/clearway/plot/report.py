@@ -1,9 +1,11 @@
 """The report of a run: one page that opens anywhere and needs nothing else."""
 
 import re
+from collections.abc import Sequence
 from html import escape
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from clearway.formats.atomic import write_text
 from clearway.metrics import Metrics
@@ -11,8 +13,8 @@ from clearway.model import PlanRecord
 from clearway.plot.payload import as_script, payload
 from clearway.plot.sentences import what_it_is, what_the_judge_says, what_went_wrong
 
-# In this order they make one script.
-SCRIPTS = (
+# In this order they make one script; between the two halves stands what the page is of.
+_FIRST = (
     "dom.js",
     "data.js",
     "shape.js",
@@ -20,12 +22,11 @@ SCRIPTS = (
     "draw_site.js",
     "draw_robots.js",
     "player.js",
-    "gantt.js",
     "inspector.js",
     "tables.js",
-    "controls.js",
-    "main.js",
 )
+_LAST = ("controls.js", "main.js")
+_PLAN = ("gantt.js", "plan_page.js")
 
 _BADGES = {"solved": "Solved", "stopped": "Stopped early", "infeasible": "Infeasible"}
 
@@ -37,27 +38,67 @@ def write_report(record: PlanRecord, metrics: Metrics, path: Path) -> None:
 
 def render(record: PlanRecord, metrics: Metrics) -> str:
     """Return the report's HTML."""
-    page = resources.files("clearway.plot") / "page"
-    script = "\n".join(page.joinpath(name).read_text("utf-8") for name in SCRIPTS)
-    banners = (
-        _banner("stop", what_went_wrong(record, metrics)),
-        _banner("fault", what_the_judge_says(metrics.violations)),
+    return compose(
+        "plan",
+        _PLAN,
+        payload(record, metrics),
+        title=record.scenario,
+        status=str(record.status),
+        badge=_BADGES[str(record.status)],
+        summary=what_it_is(record, metrics),
+        banners=(
+            banner("stop", what_went_wrong(record, metrics)),
+            banner("fault", what_the_judge_says(metrics.violations, "plan")),
+        ),
     )
+
+
+def compose(
+    thing: str,
+    scripts: Sequence[str],
+    content: dict[str, Any],
+    *,
+    title: str,
+    status: str,
+    badge: str,
+    summary: Sequence[str],
+    banners: Sequence[str],
+) -> str:
+    """Return a page with a replay.
+
+    Parameters
+    ----------
+    thing
+        ``plan`` or ``run``: whose sections the page has.
+    scripts
+        Files that only such a page needs.
+    content
+        The data of the page's scripts.
+    """
+    page = resources.files("clearway.plot") / "page"
+
+    def text(name: str) -> str:
+        return page.joinpath(name).read_text("utf-8")
+
+    script = "\n".join(text(name) for name in (*_FIRST, *scripts, *_LAST))
     parts = {
-        "title": escape(record.scenario),
-        "css": page.joinpath("report.css").read_text("utf-8"),
-        "status": escape(str(record.status)),
-        "badge": _BADGES[str(record.status)],
-        "summary": escape(" ".join(what_it_is(record, metrics))),
+        "thing": thing,
+        "title": escape(title),
+        "css": text("report.css"),
+        "key": text(f"{thing}_key.html"),
+        "sections": text(f"{thing}_sections.html"),
+        "status": escape(status),
+        "badge": escape(badge),
+        "summary": escape(" ".join(summary)),
         "banners": "".join(banners),
-        "data": as_script(payload(record, metrics)),
+        "data": as_script(content),
         "script": f'(() => {{\n"use strict";\n{script}\n}})();',
     }
-    template = page.joinpath("report.html").read_text("utf-8")
-    return re.sub(r"\[\[(\w+)\]\]", lambda found: parts[found[1]], template)
+    return re.sub(r"\[\[(\w+)\]\]", lambda found: parts[found[1]], text("report.html"))
 
 
-def _banner(kind: str, words: tuple[str, list[str]] | None) -> str:
+def banner(kind: str, words: tuple[str, list[str]] | None) -> str:
+    """Return a notice of kind ``stop`` or ``fault``; empty where there is nothing to say."""
     if words is None:
         return ""
     headline, sentences = words

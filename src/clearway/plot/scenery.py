@@ -8,10 +8,15 @@ from matplotlib.patches import Circle, Patch
 from matplotlib.patches import Polygon as Outline
 from matplotlib.patheffects import withStroke
 
-from clearway.model import Footprint, Obstacle, Pose, Site
+from clearway.model import Footprint, Obstacle, Pose, Site, Zone
 
 INK = "#161b22"
 MUTED = "#535d6a"
+# Where a site has more zones, names that do not fit would hide each other.
+_FEW_ZONES = 40
+# Widths of a letter of a zone's name, and of the picture (points).
+_LETTER = 4.8
+_PICTURE = 1000.0
 _HALO = [withStroke(linewidth=2.6, foreground="white")]
 
 
@@ -25,8 +30,9 @@ def draw_floor(axes: Axes, site: Site) -> None:
         axes.add_patch(
             Outline(zone.polygon, facecolor=faint, edgecolor="#6f9dbd", linestyle="--", zorder=1)
         )
-        x, y = np.mean(zone.polygon, axis=0)
-        write(axes, x, y, zone.name, size=8, colour="#3d6280", order=2)
+        if len(site.zones) <= _FEW_ZONES or _fits(zone, float(np.ptp(xs))):
+            x, y = np.mean(zone.polygon, axis=0)
+            write(axes, x, y, zone.name, size=8, colour="#3d6280", order=2)
     for obstacle in site.obstacles:
         axes.add_patch(_obstacle(obstacle))
     axes.add_patch(Outline(site.bounds, fill=False, edgecolor="#77818e", linewidth=1.6, zorder=2))
@@ -39,6 +45,12 @@ def draw_floor(axes: Axes, site: Site) -> None:
     axes.tick_params(colors=MUTED)
     for spine in axes.spines.values():
         spine.set_visible(False)
+
+
+def _fits(zone: Zone, width: float) -> bool:
+    """Whether a zone's name lies within it where the site is ``width`` wide (m)."""
+    xs = [x for x, _ in zone.polygon]
+    return _LETTER * len(zone.name) * width < (max(xs) - min(xs)) * _PICTURE
 
 
 def draw_body(

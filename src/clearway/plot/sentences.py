@@ -69,12 +69,16 @@ def what_went_wrong(record: PlanRecord, metrics: Metrics) -> tuple[str, list[str
     return headline, [reason, f"Visits left open: {named}{rest}."]
 
 
-def what_the_judge_says(violations: int) -> tuple[str, list[str]] | None:
-    """Return a headline and its sentences where the judge found faults, otherwise ``None``."""
+def what_the_judge_says(violations: int, thing: str) -> tuple[str, list[str]] | None:
+    """Return a headline and its sentences where the judge found faults, otherwise ``None``.
+
+    ``thing`` is what it judged, ``plan`` or ``run``.
+    """
     if not violations:
         return None
+    what = "do not drive this plan" if thing == "plan" else "this run is not right"
     return (
-        f"The judge found {count(violations, 'violation')}: do not drive this plan",
+        f"The judge found {count(violations, 'violation')}: {what}",
         [
             "A body overlaps, a limit is broken or a visit is missed. \u201cclearway validate\u201d"
             " on this run's folder lists each one with its time and place."

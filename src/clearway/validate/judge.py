@@ -15,7 +15,7 @@ from clearway.validate.modes import judge_modes
 from clearway.validate.pairs import Meeting, Mover, Timetable, judge_pairs
 from clearway.validate.paper_cost import judge_paper_cost
 from clearway.validate.separation import gaps, least_separation
-from clearway.validate.statics import Surroundings
+from clearway.validate.statics import Surroundings, margin_around
 from clearway.validate.steps import Floats, Steps, track_of
 from clearway.validate.violation import Violation
 from clearway.validate.visits import Schedule, judge_visits, loads_of, schedule_of
@@ -60,7 +60,8 @@ def validate_plan(
         found += judge_kinematics(robot, kind, track, motion)
         found += judge_modes(robot, kind, track, motion)
         found += judge_acceleration(robot, kind, track, motion)
-    surroundings = Surroundings(record.site, overlap, border, _margin(record, steps))
+    margin = margin_around(record.site, record.robot_types.values(), steps.values())
+    surroundings = Surroundings(record.site, overlap, border, margin)
     for robot in record.robots:
         found += surroundings.judge(robot, record.robot_types[robot.type], steps[robot.id])
     found += judge_pairs(_movers(record, steps), _until(record, steps), overlap)
@@ -142,21 +143,3 @@ def _movers(record: PlanRecord, steps: dict[str, Steps]) -> list[Mover]:
 def _until(record: PlanRecord, steps: dict[str, Steps]) -> float:
     end = min((float(s.t1[-1]) for s in steps.values()), default=0.0)
     return end if record.conflict_free_until is None else min(end, record.conflict_free_until)
-
-
-def _margin(record: PlanRecord, steps: dict[str, Steps]) -> float:
-    """Return how far around the bounds bodies can be (m)."""
-    bounds = np.array(record.site.bounds)
-    reach = max(
-        (
-            kind.shape(loaded).circumradius
-            for kind in record.robot_types.values()
-            for loaded in (False, True)
-        ),
-        default=0.0,
-    )
-    beyond = [0.0]
-    for motion in steps.values():
-        xy = motion.pose[:, :2]
-        beyond += [*(bounds.min(axis=0) - xy.min(axis=0)), *(xy.max(axis=0) - bounds.max(axis=0))]
-    return float(max(beyond)) + 2.0 * reach + 1.0

@@ -1,5 +1,6 @@
 """Bodies against obstacles, bounds and closed zones."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -29,6 +30,18 @@ class Thing:
     name: str
     parts: tuple[Part, ...]
     tolerance: float
+
+
+def margin_around(site: Site, kinds: Iterable[RobotType], motions: Iterable[Steps]) -> float:
+    """Return how far around the bounds bodies can be (m)."""
+    bounds = np.array(site.bounds)
+    shapes = [kind.shape(loaded) for kind in kinds for loaded in (False, True)]
+    reach = max((shape.circumradius for shape in shapes), default=0.0)
+    beyond = [0.0]
+    for motion in motions:
+        xy = motion.pose[:, :2]
+        beyond += [*(bounds.min(axis=0) - xy.min(axis=0)), *(xy.max(axis=0) - bounds.max(axis=0))]
+    return float(max(beyond)) + 2.0 * reach + 1.0
 
 
 class Surroundings:

@@ -10,7 +10,7 @@ class Violation:
     Parameters
     ----------
     kind
-        One of ``KINDS``.
+        One of ``KINDS``, or ``TRACE_KINDS`` where a trace is judged.
     robots
         Ids of the robots concerned; empty where it is about the whole plan.
     time
@@ -68,4 +68,14 @@ KINDS = (
     "lower_bound",
     "cost",
     "cost_lower_bound",
+)
+
+# What only a trace can have wrong.
+TRACE_KINDS = (
+    "gap",  # pieces of one robot's motion that do not join
+    "order",  # states out of turn, visits of others, done before its visits are made
+    "load",  # more on board than fits, or one object on two robots
+    "energy",  # a level outside [0, 1]
+    "wait",  # a wait that names nobody and nothing
+    "end",  # closing figures that are not those of the trace
 )

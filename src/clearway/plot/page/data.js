@@ -1,4 +1,4 @@
-// The plan as it came with the page, and where everything is at any moment.
+// The plan or the run as it came with the page, and where everything is at any moment.
 
 const data = JSON.parse(byId("data").textContent);
 const duration = data.duration;
@@ -14,9 +14,20 @@ function unpack(steps) {
   return values;
 }
 
+/** What all names begin with up to the last sign between words; names on the floor go without. */
+const samePrefix = (() => {
+  const [first = "", ...others] = data.robots.map((robot) => robot.id);
+  let prefix = first.replace(/[^-_ .:]*$/, "");
+  while (others.some((id) => !id.startsWith(prefix))) {
+    prefix = prefix.slice(0, -1).replace(/[^-_ .:]*$/, "");
+  }
+  return others.length ? prefix : "";
+})();
+
 const robots = data.robots.map((raw, index) => ({
   ...raw,
   index,
+  label: shorten(raw.id.slice(samePrefix.length) || raw.id, 14),
   shape: data.types[raw.type],
   t: unpack(raw.track.t),
   x: unpack(raw.track.x),
@@ -71,9 +82,13 @@ function activityAt(robot, time) {
   return k >= 0 && ms < robot.activities[k][2] ? robot.activities[k] : null;
 }
 
-const DOING = { drive: "driving", turn: "turning on the spot", wait: "waiting", service: "at work" };
+const DOING = {
+  drive: "driving", turn: "turning on the spot", wait: "waiting", service: "at work",
+  charge: "charging", stop: "stopped by itself", refused: "without a plan",
+  idle: "nothing to do", stand: "standing",
+};
 
-/** What a robot does, in words: its mode where it has modes and moves. */
+/** What a robot does, in words: its mode where it has modes and moves, in a run for whom it waits. */
 function doingAt(robot, time) {
   const activity = activityAt(robot, time);
   if (!activity) {
@@ -85,19 +100,42 @@ function doingAt(robot, time) {
     const mode = k >= 0 ? robot.modes[k][1] : null;
     if (mode && mode !== "stop") return mode;
   }
-  return DOING[activity[0]];
+  const whom = data.is_run && activity[0] === "wait" ? ` for ${activity[3]}` : "";
+  return DOING[activity[0]] + whom;
 }
 
-const isCarrying = (robot, time) =>
-  robot.carrying.some(([from, to]) => 1000 * time >= from && (to === undefined || 1000 * time < to));
+/** The span [from, to, names] with a load on board, or null. */
+function loadAt(robot, time) {
+  const ms = 1000 * time;
+  const span = robot.carrying[lastBefore(robot.carrying.length, (i) => robot.carrying[i][0], ms)];
+  return span && (span[1] === undefined || ms < span[1]) ? span : null;
+}
+
+const isCarrying = (robot, time) => loadAt(robot, time) !== null;
 
 /** Index of the visit that a robot is making or heading for; the number of visits at the end. */
 function visitAt(robot, time) {
-  const k = robot.visits.findIndex((v) => v.leave === null || v.leave > 1000 * time);
-  return k < 0 ? robot.visits.length : k;
+  // Visits that are not made come last.
+  return 1 + lastBefore(robot.visits.length, (i) => robot.visits[i].leave ?? Infinity, 1000 * time);
 }
 
+/** The trip of a run [from, to, purpose, order, sentences] that a robot is on, or null. */
+function tripAt(robot, time) {
+  const ms = 1000 * time;
+  const trip = robot.trips[lastBefore(robot.trips.length, (i) => robot.trips[i][0], ms)];
+  return trip && ms < trip[1] ? trip : null;
+}
+
+/** The task that a robot is at, or heading for; in a run its order. */
 function taskAt(robot, time) {
+  if (data.is_run) return tripAt(robot, time)?.[3] ?? null;
   const visit = robot.visits[visitAt(robot, time)];
   return visit && visit.task !== null ? visit.task : null;
+}
+
+/** Level of a robot's battery when last told. */
+function energyText(robot, time) {
+  const [times, levels] = robot.energy;
+  const k = lastBefore(times.length, (i) => times[i], 1000 * time);
+  return k < 0 ? "not told" : percent(levels[k], 0);
 }

@@ -11,14 +11,28 @@ function luminance(colour) {
   return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }
 
+const inksOn = new Map();
+
 /** White or near-black, whichever reads better on a colour. */
 function inkOn(colour) {
-  const light = luminance(colour);
-  return 1.05 / (light + 0.05) > (light + 0.05) / 0.056 ? "#ffffff" : "#111418";
+  if (!inksOn.has(colour)) {
+    const light = luminance(colour);
+    const isWhite = 1.05 / (light + 0.05) > (light + 0.05) / 0.056;
+    inksOn.set(colour, isWhite ? "#ffffff" : "#111418");
+  }
+  return inksOn.get(colour);
 }
+
+const lineColours = new Map();
 
 /** A robot's colour for thin lines: moved away from the floor's until it stands out 3 : 1. */
 function lineColour(colour, ink) {
+  const key = colour + ink.floor;
+  if (!lineColours.has(key)) lineColours.set(key, mixedColour(colour, ink));
+  return lineColours.get(key);
+}
+
+function mixedColour(colour, ink) {
   const floor = luminance(ink.floor);
   const goal = floor > 0.2 ? 0 : 255;
   const hex = (value) => Math.round(value).toString(16).padStart(2, "0");
@@ -31,10 +45,10 @@ function lineColour(colour, ink) {
   return mixed;
 }
 
-/** The way to the next visit; all of the way for the chosen robot. */
+/** The way to the next visit; in a plan all of the way for the chosen robot. */
 function drawWay(ctx, camera, ink, robot, time, isChosen) {
   const visit = robot.visits[visitAt(robot, time)];
-  const until = isChosen || !visit || visit.arrive === null ? duration : visit.arrive / 1000;
+  const until = (isChosen && !data.is_run) || !visit || visit.arrive === null ? duration : visit.arrive / 1000;
   ctx.beginPath();
   ctx.moveTo(...poseAt(robot, time));
   for (let k = sampleAt(robot, time) + 1; k < robot.t.length && robot.t[k] < until; k += 1) {
@@ -63,19 +77,25 @@ function drawMarks(ctx, camera, ink, robot, time) {
   ctx.lineWidth = 1.5 / camera.scale;
   const line = lineColour(robot.colour, ink);
   ctx.strokeStyle = line;
+  const next = visitAt(robot, time);
+  const mark = (visit, isMade) => {
+    diamond(ctx, visit.pose[0], visit.pose[1], 1.15 * r);
+    ctx.fillStyle = isMade ? ink.floor : robot.colour;
+    ctx.fill();
+    ctx.strokeStyle = isMade ? line : ink.text;
+    ctx.stroke();
+  };
+  if (data.is_run) {
+    // A run has hundreds of visits: the next one only.
+    if (next < robot.visits.length) mark(robot.visits[next], false);
+    return;
+  }
   ctx.fillStyle = ink.floor;
   ctx.beginPath();
   ctx.arc(robot.start[0], robot.start[1], r, 0, 2 * Math.PI);
   ctx.fill();
   ctx.stroke();
-  const next = visitAt(robot, time);
-  robot.visits.forEach((visit, index) => {
-    diamond(ctx, visit.pose[0], visit.pose[1], 1.15 * r);
-    ctx.fillStyle = index < next ? ink.floor : robot.colour;
-    ctx.fill();
-    ctx.strokeStyle = index < next ? line : ink.text;
-    ctx.stroke();
-  });
+  robot.visits.forEach((visit, index) => mark(visit, index < next));
 }
 
 function tracePart(ctx, form) {
@@ -129,7 +149,7 @@ function drawBody(ctx, camera, ink, robot, time, isChosen) {
   ctx.lineTo(front - 1.3 * depth, -depth);
   ctx.closePath();
   ctx.fill();
-  if (loaded) {
+  if (loaded && !content.showsLoad(robot, time)) {
     ctx.strokeStyle = mark;
     ctx.lineWidth = Math.max(1.5 * pixel, 0.05);
     const [near, far] = [back + 0.12 * (front - back), front - 1.6 * depth];
@@ -147,7 +167,7 @@ function drawName(ctx, camera, ink, robot, time, isChosen) {
   const [x, y] = camera.toScreen(
     pose[0] + middle * Math.cos(pose[2]), pose[1] + middle * Math.sin(pose[2]),
   );
-  const name = shorten(robot.id, 14);
+  const name = robot.label;
   const size = clamp(half * camera.scale * 0.9, 10, 15);
   ctx.font = `650 ${size}px ${ink.font}`;
   ctx.textAlign = "center";

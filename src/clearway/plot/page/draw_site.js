@@ -7,6 +7,8 @@ function closedPath(points) {
   return path;
 }
 
+const ZONE_COLOURS = { closed: "closed", shelf: "zoneShelf", charger: "zoneCharger" };
+
 const sitePaths = (() => {
   const everyone = { solid: new Path2D(), wall: new Path2D() };
   const some = { solid: new Path2D(), wall: new Path2D() };
@@ -23,7 +25,13 @@ const sitePaths = (() => {
       group.wall.lineTo(...wall[1]);
     }
   }
-  const zones = data.site.zones.map((zone) => ({ ...zone, path: closedPath(zone.polygon) }));
+  // Hundreds of zones are drawn as one path for each colour.
+  const zones = new Map();
+  for (const { kind, polygon } of data.site.zones) {
+    const colour = ZONE_COLOURS[kind] ?? "zone";
+    if (!zones.has(colour)) zones.set(colour, new Path2D());
+    zones.get(colour).addPath(closedPath(polygon));
+  }
   return { bounds: closedPath(data.site.bounds), everyone, some, zones };
 })();
 
@@ -66,11 +74,11 @@ function drawSite(ctx, camera, ink, ratio) {
 
   ctx.setLineDash([5 * pixel, 4 * pixel]);
   ctx.lineWidth = 1.2 * pixel;
-  for (const zone of sitePaths.zones) {
-    ctx.fillStyle = zone.kind === "closed" ? ink.closed : ink.zone;
-    ctx.fill(zone.path);
+  for (const [colour, path] of sitePaths.zones) {
+    ctx.fillStyle = ink[colour];
+    ctx.fill(path);
     ctx.strokeStyle = ink.zoneEdge;
-    ctx.stroke(zone.path);
+    ctx.stroke(path);
   }
   ctx.setLineDash([]);
 
@@ -96,18 +104,38 @@ function drawSite(ctx, camera, ink, ratio) {
   ctx.stroke(sitePaths.bounds);
 }
 
-function drawZoneNames(ctx, camera, ink) {
-  ctx.font = `500 11px ${ink.font}`;
+/** Beyond these many of one kind, all their names are shown or none. */
+const FEW_ZONES = 12;
+
+/** Names of zones where they fit, in small letters if need be. */
+function drawZoneNames(ctx, camera, ink, ratio) {
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.textAlign = "center";
   ctx.textBaseline = "middle";
   ctx.fillStyle = ink.zoneText;
-  for (const zone of sitePaths.zones) {
-    const xs = zone.polygon.map((p) => p[0]);
-    const ys = zone.polygon.map((p) => p[1]);
+  const font = (pixels) => `500 ${pixels}px ${ink.font}`;
+  const kinds = new Map();
+  for (const { name, kind, polygon } of data.site.zones) {
+    const xs = polygon.map((p) => p[0]);
+    const ys = polygon.map((p) => p[1]);
     const [left, top] = camera.toScreen(Math.min(...xs), Math.max(...ys));
     const [right, bottom] = camera.toScreen(Math.max(...xs), Math.min(...ys));
-    const fits = ctx.measureText(zone.name).width < right - left - 6 && bottom - top > 14;
-    if (fits) ctx.fillText(zone.name, (left + right) / 2, (top + bottom) / 2);
+    const isSeen = right > 0 && left < camera.width && bottom > 0 && top < camera.height;
+    const size = [11, 9].find((pixels) => {
+      ctx.font = font(pixels);
+      return Math.min(bottom - top, right - left) > pixels + 3
+        && ctx.measureText(name).width < right - left - (pixels - 7);
+    }) ?? 0;
+    if (!kinds.has(kind)) kinds.set(kind, []);
+    kinds.get(kind).push({ name, size, isSeen, x: (left + right) / 2, y: (top + bottom) / 2 });
+  }
+  for (const zones of kinds.values()) {
+    const least = zones.length > FEW_ZONES ? Math.min(...zones.map((zone) => zone.size)) : null;
+    for (const { name, size, isSeen, x, y } of zones) {
+      if (!isSeen || !(least ?? size)) continue;
+      ctx.font = font(least ?? size);
+      ctx.fillText(name, x, y);
+    }
   }
 }
 
@@ -131,4 +159,26 @@ function drawScale(ctx, camera, ink) {
   ctx.lineWidth = 1.5;
   ctx.stroke();
   haloText(ctx, ink, `${metres} m`, right + 7, y - 3);
+}
+
+/** A picture that is drawn again only where the view or the colours have changed. */
+class Layer {
+  constructor(draw) {
+    this.draw = draw;
+    this.canvas = document.createElement("canvas");
+    this.key = "";
+  }
+
+  drawOn(ctx, camera, ink, ratio) {
+    const { width, height } = ctx.canvas;
+    if (!width || !height) return;
+    const key = [camera.x, camera.y, camera.scale, width, height, ratio, ink.floor].join();
+    if (key !== this.key) {
+      this.key = key;
+      [this.canvas.width, this.canvas.height] = [width, height];
+      this.draw(this.canvas.getContext("2d"), camera, ink, ratio);
+    }
+    ctx.setTransform(1, 0, 0, 1, 0, 0);
+    ctx.drawImage(this.canvas, 0, 0);
+  }
 }

@@ -8,7 +8,11 @@ class Inspector {
     this.entries = robots.map((robot) => this.entry(robot));
     list.append(...this.entries.map((entry) => entry.item));
     this.fields = {};
-    const names = { type: "Type", doing: "Doing", speed: "Speed", task: "Task", load: "Load", near: "Nearest robot" };
+    const names = {
+      type: "Type", doing: "Doing", speed: "Speed", task: data.is_run ? "Order" : "Task", load: "Load",
+      near: "Nearest robot",
+    };
+    if (robots.some((robot) => robot.energy?.[0].length)) names.energy = "Energy";
     this.heading = make("h2");
     this.hint = make("p", { class: "hint" },
       "Choose a robot here, on the floor or with [ and ] to see what it does.");
@@ -96,7 +100,9 @@ class Inspector {
     say(this.fields.doing, doingAt(robot, time));
     say(this.fields.speed, `${fixed(speedAt(robot, time), 2)} m/s`);
     say(this.fields.task, taskAt(robot, time) ?? "none");
-    say(this.fields.load, isCarrying(robot, time) ? "carrying" : "empty");
+    const load = loadAt(robot, time);
+    say(this.fields.load, load ? load[2] || "carrying" : "empty");
+    if (this.fields.energy) say(this.fields.energy, energyText(robot, time));
     say(this.fields.near, near ? `${fixed(near.metres, 2)} m (${near.robot.id})` : "alone");
   }
 
@@ -106,7 +112,7 @@ class Inspector {
     const task = taskAt(robot, time);
     const facts = [
       doingAt(robot, time), `${fixed(speedAt(robot, time), 2)} m/s`,
-      task === null ? "no task" : `task ${task}`,
+      task === null ? "no task" : data.is_run ? `order ${task}` : `task ${task}`,
     ];
     const near = nearest(robot, time);
     if (near) facts.push(`${fixed(near.metres, 2)} m to ${near.robot.id}`);

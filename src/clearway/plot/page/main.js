@@ -4,6 +4,7 @@ const canvas = byId("floor");
 const ctx = canvas.getContext("2d");
 const camera = new Camera(data.site.bounds);
 const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
+const [floorLayer, nameLayer] = [new Layer(drawSite), new Layer(drawZoneNames)];
 let ink = {};
 let ratio = 1;
 let isFollowing = false;
@@ -11,12 +12,14 @@ let isFollowing = false;
 const player = new Player((time) => show(time));
 const inspector = new Inspector(byId("fleet"), byId("card"), byId("tip"), () => player.refresh());
 const transport = new Transport(player);
-const gantt = new Gantt(byId("gantt"), player, (robot) => inspector.choose(robot));
+const content = makeContent(player, (robot) => inspector.choose(robot), go);
 
 function readInk() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["floor", "outside", "grid", "edge", "zone", "zone-edge", "zone-text", "closed",
-    "obstacle", "obstacle-edge", "text", "plate", "focus"];
+  const names = ["floor", "outside", "grid", "edge", "zone", "zone-shelf", "zone-charger",
+    "zone-edge", "zone-text", "closed", "obstacle", "obstacle-edge", "text", "muted", "plate", "focus",
+    "surface", "line", "chosen", "shelf", "fault", "drive", "turn", "wait", "service", "on-service",
+    "charge", "cursor"];
   ink = { font: style.getPropertyValue("--font") };
   for (const name of names) {
     const key = name.replace(/-(\w)/, (_, letter) => letter.toUpperCase());
@@ -27,15 +30,18 @@ function readInk() {
 function show(time) {
   const { chosen } = inspector;
   if (isFollowing && chosen) camera.look(...poseAt(chosen, time));
-  drawSite(ctx, camera, ink, ratio);
-  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  drawZoneNames(ctx, camera, ink);
+  floorLayer.drawOn(ctx, camera, ink, ratio);
+  camera.useMetres(ctx, ratio);
+  content.drawUnder(ctx, camera, ink, time);
+  nameLayer.drawOn(ctx, camera, ink, ratio);
   drawRobots(ctx, camera, ink, time, chosen, ratio);
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  content.drawOver(ctx, camera, ink, time);
   drawScale(ctx, camera, ink);
   canvas.style.touchAction = camera.isFitted ? "pan-y" : "none";
   transport.show(time);
   inspector.show(time, camera);
-  gantt.show(time, chosen);
+  content.show(time, chosen, ink);
   byId("follow").disabled = !chosen;
   byId("follow").setAttribute("aria-pressed", String(isFollowing && Boolean(chosen)));
   byId("fit").disabled = byId("zoom-out").disabled = camera.isFitted;
@@ -125,11 +131,6 @@ listenToKeys({
 canvas.setAttribute("aria-label",
   `The site from above with ${robots.length} robots; a table of what they do follows below`);
 document.documentElement.style.setProperty("--aspect", clamp(camera.aspect, 0.6, 3).toFixed(4));
-showLegend(byId("legend"));
-showFigures(byId("figures"));
-showCost(byId("cost"));
-showApart(byId("apart"), go);
-showWork(byId("work"), (robot) => inspector.choose(robot), go);
 byId("run").append(settings(Object.entries(data.run)));
 setTheme(document.documentElement.dataset.theme);
 new ResizeObserver(resize).observe(canvas);
@@ -144,6 +145,7 @@ window.clearway = {
   poses: () => Object.fromEntries(robots.map((robot) => [robot.id, poseAt(robot, player.time)])),
   /** Choose a robot by its id; null chooses none. */
   choose: (id) => inspector.choose(robots.find((robot) => robot.id === id) || null),
+  ...content.api,
   /** The replay as it is shown. */
   view: () => ({
     speed: player.speed, playing: player.isPlaying, duration, zoom: camera.scale / camera.fitScale,
