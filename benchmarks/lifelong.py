@@ -108,7 +108,10 @@ def run(scenario: Scenario, params: TailTripsParams, choose: Chooser) -> tuple[T
                 chosen = choose(open_jobs, pose, [b[0] for b in busy.values()])
                 wanted[robot] = open_jobs.pop(chosen)
             job = wanted[robot]
-            visits = (Visit(None, pose_of(job.pick), service), Visit(None, pose_of(job.station), service))
+            visits = (
+                Visit(None, pose_of(job.pick), service),
+                Visit(None, pose_of(job.station), service),
+            )
             trip = Trip(robot, visits, "order", None, (job.pick.name, job.station.name), bays)
             clock = time.process_time()
             answer = trips.plan(trip, now, 1 + tries[robot] // TRIES)
