@@ -108,7 +108,10 @@ def run(scenario: Scenario, params: TailTripsParams, choose: Chooser) -> tuple[T
                 chosen = choose(open_jobs, pose, [b[0] for b in busy.values()])
                 wanted[robot] = open_jobs.pop(chosen)
             job = wanted[robot]
-            visits = (Visit(None, pose_of(job.pick), service), Visit(None, pose_of(job.station), service))
+            visits = (
+                Visit(None, pose_of(job.pick), service),
+                Visit(None, pose_of(job.station), service),
+            )
             trip = Trip(robot, visits, "order", None, (job.pick.name, job.station.name), bays)
             clock = time.process_time()
             answer = trips.plan(trip, now, 1 + tries[robot] // TRIES)
@@ -164,9 +167,13 @@ def main() -> None:
     parser.add_argument("--choose", choices=("first", "nearest"), default="first")
     parser.add_argument("--limit", type=int)
     parser.add_argument("--rests", type=int)
+    parser.add_argument("--search", nargs="*", default=[])
     options = parser.parse_args()
     given = {"search_limit": options.limit, "most_rests": options.rests}
     params = TailTripsParams(**{key: value for key, value in given.items() if value is not None})
+    for pair in options.search:
+        key, value = pair.split("=")
+        setattr(params.core.search, key, type(getattr(params.core.search, key))(float(value)))
     chooser = first if options.choose == "first" else nearest
     for robots in options.robots:
         for seed in options.seeds:

@@ -47,8 +47,13 @@ void bind_lanes(nb::module_& m) {
            "Replace what a robot holds by a timed route.")
       .def("remove", &CellHolds::remove, "robot"_a)
       .def("route", &CellHolds::route, "robot"_a, nb::rv_policy::copy)
-      .def("clashes", &CellHolds::clashes, "robot"_a, "route"_a,
-           "Conflicts of a timed route with what all others hold, by their moments.")
+      .def("clashes", &CellHolds::clashes, "robot"_a, "route"_a, "granted"_a = 0,
+           "Conflicts of a timed route with what all others hold, by their moments. Nobody goes "
+           "before another into a cell that this one begins to hold before `granted`.")
+      .def("least_delay", &CellHolds::least_delay, "robot"_a, "route"_a, "index"_a, "other"_a,
+           "granted"_a = 0,
+           "Ticks by which a robot must go on later from a cell of its route so that it meets "
+           "nothing of another's from there on; -1: it cannot by waiting there.")
       .def(
           "holders",
           [](const CellHolds& self, int cell, Ticks since) {
@@ -57,6 +62,13 @@ void bind_lanes(nb::module_& m) {
             return self.holders(cell, since);
           },
           "cell"_a, "since"_a, "Robots that hold a cell after a tick.");
+  m.def(
+      "delayed",
+      [](const std::vector<CellStay>& route, std::size_t index, Ticks by) {
+        return delayed(route, index, by);
+      },
+      "route"_a, "index"_a, "by"_a,
+      "A route whose robot goes on from the middle of a cell later, and turns there later.");
   nb::class_<LaneWay>(m, "LaneWay", "What a search over a lane grid found.")
       .def_ro("found", &LaneWay::found)
       .def_ro("stays", &LaneWay::stays, nb::rv_policy::copy)
@@ -76,16 +88,17 @@ void bind_lanes(nb::module_& m) {
       .def(
           "__call__",
           [](LaneSearch& self, const CellHolds& holds, const Bytes& moves, int robot, int start,
-             int goal, Ticks now, std::array<Ticks, 4> first_turn, std::array<Ticks, 4> last_turn,
-             std::int64_t limit) {
+             int goal, Ticks now, Ticks granted, std::array<Ticks, 4> first_turn,
+             std::array<Ticks, 4> last_turn, std::int64_t limit) {
             check(moves, holds, "moves");
             const int cells = holds.width() * holds.height();
             if (std::min(start, goal) < 0 || std::max(start, goal) >= cells)
               throw std::invalid_argument("start and goal must be cells of the grid");
-            return self(moves.data(), {robot, start, goal, now, first_turn, last_turn}, limit);
+            return self(moves.data(), {robot, start, goal, now, granted, first_turn, last_turn},
+                        limit);
           },
-          "holds"_a, "moves"_a, "robot"_a, "start"_a, "goal"_a, "now"_a, "first_turn"_a,
-          "last_turn"_a, "limit"_a,
+          "holds"_a, "moves"_a, "robot"_a, "start"_a, "goal"_a, "now"_a, "granted"_a,
+          "first_turn"_a, "last_turn"_a, "limit"_a,
           "`moves` holds bits of the legal directions out of each cell; the earliest arrival "
           "wins.");
 }

@@ -975,13 +975,23 @@ class CellHolds:
 
     def route(self, robot: int) -> list[CellStay]: ...
 
-    def clashes(self, robot: int, route: Sequence[CellStay]) -> list[Clash]:
+    def clashes(self, robot: int, route: Sequence[CellStay], granted: int = 0) -> list[Clash]:
         """
-        Conflicts of a timed route with what all others hold, by their moments.
+        Conflicts of a timed route with what all others hold, by their moments. Nobody goes before another into a cell that this one begins to hold before `granted`.
+        """
+
+    def least_delay(self, robot: int, route: Sequence[CellStay], index: int, other: int, granted: int = 0) -> int:
+        """
+        Ticks by which a robot must go on later from a cell of its route so that it meets nothing of another's from there on; -1: it cannot by waiting there.
         """
 
     def holders(self, cell: int, since: int) -> list[int]:
         """Robots that hold a cell after a tick."""
+
+def delayed(route: Sequence[CellStay], index: int, by: int) -> list[CellStay]:
+    """
+    A route whose robot goes on from the middle of a cell later, and turns there later.
+    """
 
 class LaneWay:
     """What a search over a lane grid found."""
@@ -1008,7 +1018,7 @@ class LaneSearch:
 
     def __init__(self, holds: CellHolds, may_wait: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], turn: int) -> None: ...
 
-    def __call__(self, holds: CellHolds, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
+    def __call__(self, holds: CellHolds, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, granted: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
         """
         `moves` holds bits of the legal directions out of each cell; the earliest arrival wins.
         """
@@ -1233,6 +1243,11 @@ class PathConflicts:
 def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
     """
     Where two committed motions need the same floor, whatever their times become.
+    """
+
+def paths_overlap(a: CommittedPath, from_a: int, to_a: int, b: CommittedPath, from_b: int, to_b: int) -> bool:
+    """
+    Whether bodies are in each other for some tick of each of two stretches.
     """
 
 class AssignmentCosts:

@@ -104,7 +104,13 @@ void CellHolds::remove(int robot) {
   route.clear();
 }
 
-std::vector<Clash> CellHolds::clashes(int robot, const std::vector<CellStay>& route) const {
+bool CellHolds::meet(const Hold& mine, const Hold& theirs, Ticks granted) const {
+  return mine.begin < theirs.free_from(mine.in, step_) &&
+         theirs.begin < std::max(mine.free_from(theirs.in, step_), granted);
+}
+
+std::vector<Clash> CellHolds::clashes(int robot, const std::vector<CellStay>& route,
+                                      Ticks granted) const {
   checked(robot);
   check(route);
   std::vector<Clash> found;
@@ -112,11 +118,8 @@ std::vector<Clash> CellHolds::clashes(int robot, const std::vector<CellStay>& ro
     const Hold mine = hold_of(route, i);
     for (int id = first(route[i].cell); id >= 0; id = hold(id).next) {
       const Hold& theirs = hold(id);
-      if (theirs.robot == robot) continue;
-      const bool after = mine.begin >= theirs.free_from(mine.in, step_);
-      const bool before = theirs.begin >= mine.free_from(theirs.in, step_);
-      if (!after && !before)
-        found.push_back({route[i].cell, static_cast<int>(i), theirs.robot, theirs.index,
+      if (theirs.robot != robot && meet(mine, theirs, granted))
+        found.push_back({route[i].cell, mine.index, theirs.robot, theirs.index,
                          std::max(mine.begin, theirs.begin)});
     }
     if (!wide_ || mine.turn_begin == mine.turn_end) continue;
@@ -125,13 +128,60 @@ std::vector<Clash> CellHolds::clashes(int robot, const std::vector<CellStay>& ro
         const Hold& theirs = hold(id);
         const Ticks both = std::max(mine.turn_begin, theirs.turn_begin);
         if (theirs.robot != robot && both < std::min(mine.turn_end, theirs.turn_end))
-          found.push_back({next, static_cast<int>(i), theirs.robot, theirs.index, both});
+          found.push_back({next, mine.index, theirs.robot, theirs.index, both});
       }
     }
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Clash& a, const Clash& b) { return a.at < b.at; });
   return found;
+}
+
+std::vector<CellStay> delayed(std::vector<CellStay> route, std::size_t index, Ticks by) {
+  for (std::size_t i = index; i < route.size(); ++i) {
+    CellStay& stay = route[i];
+    if (i > index) stay.arrive += by;
+    if (stay.depart < kNever) stay.depart += by;
+    stay.turn_begin += by;
+    stay.turn_end += by;
+  }
+  return route;
+}
+
+Ticks CellHolds::least_delay(int robot, const std::vector<CellStay>& route, std::size_t index,
+                             int other, Ticks granted) const {
+  checked(robot);
+  checked(other);
+  check(route);
+  if (index + 1 >= route.size()) throw std::invalid_argument("nobody goes on from a last cell");
+  Ticks by = 0;
+  // Each round passes one of the other's holds or turns for good, so there are not many.
+  for (bool again = true; again;) {
+    again = false;
+    const std::vector<CellStay> later = delayed(route, index, by);
+    for (std::size_t i = index; i < later.size() && !again; ++i) {
+      const Hold mine = hold_of(later, i);
+      for (int id = first(later[i].cell); id >= 0 && !again; id = hold(id).next) {
+        const Hold& theirs = hold(id);
+        if (theirs.robot != other || !meet(mine, theirs, granted)) continue;
+        if (i == index || theirs.end >= kNever) return -1;
+        by += theirs.free_from(mine.in, step_) - mine.begin;
+        again = true;
+      }
+      if (!wide_ || mine.turn_begin == mine.turn_end || again) continue;
+      for (const int next : beside(later[i].cell)) {
+        for (int id = next < 0 ? -1 : first(next); id >= 0 && !again; id = hold(id).next) {
+          const Hold& theirs = hold(id);
+          if (theirs.robot != other || mine.turn_begin >= theirs.turn_end ||
+              theirs.turn_begin >= mine.turn_end)
+            continue;
+          by += theirs.turn_end - mine.turn_begin;
+          again = true;
+        }
+      }
+    }
+  }
+  return by;
 }
 
 std::vector<int> CellHolds::holders(int cell, Ticks from) const {

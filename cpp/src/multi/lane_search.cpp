@@ -124,7 +124,7 @@ LaneSearch::Fit LaneSearch::fit(const Entry& entry, Ticks begin, Ticks stay, Dir
     if (other.robot == query_.robot) continue;
     const Ticks gone = found.begin + stay;
     const bool follows = out == kNowhere || out == other.in;
-    if (gone + (follows ? 0 : step) <= other.begin) return found;
+    if (gone + (follows ? 0 : step) <= other.begin && other.begin >= query_.granted) return found;
     const Ticks free = other.free_from(entry.in, step);
     found.before = id;
     if (free > found.begin) {

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from clearway import _core
@@ -22,6 +23,34 @@ def direction(before: Cell, after: Cell) -> int:
 def turn_ticks(before: float, after: float, quarter: int) -> int:
     """Return how long a turn on the spot lasts (ticks), if a quarter lasts ``quarter``."""
     return math.ceil(quarter * abs(wrap(after - before)) / QUARTER - _SAME)
+
+
+def timed(
+    indices: Sequence[int], width: int, ready: int, step: int, turns: Sequence[int], quarter: int
+) -> list[_core.CellStay]:
+    """Return when a robot is where on a route if it never waits.
+
+    Parameters
+    ----------
+    indices
+        Cells, each ``y * width + x``.
+    ready
+        Tick at which it may set out.
+    step, quarter
+        Ticks to the next cell, and of a turn by 90 degrees.
+    turns
+        Ticks of the first turn, by the direction of the first step.
+    """
+    cells = [(index % width, index // width) for index in indices]
+    steps = [direction(*pair) for pair in pairwise(cells)]
+    stays = []
+    arrive = ready
+    for k, way in enumerate(steps):
+        turned = abs(way - steps[k - 1]) % 4 if k else 0
+        turn = min(turned, 4 - turned) * quarter if k else turns[way]
+        stays.append(_core.CellStay(indices[k], arrive, arrive + turn, arrive, arrive + turn))
+        arrive += turn + step
+    return [*stays, _core.CellStay(indices[-1], arrive, _core.NEVER, arrive, arrive)]
 
 
 def trajectory_of(
@@ -72,3 +101,93 @@ def trajectory_of(
         pose = grid.centre(cells[k], HEADINGS[steps[first]])
     turn(goal.theta, stays[-1])
     return Trajectory(robot, start, tuple(pieces), tuple(timing), (stop,))
+
+
+def split(trajectory: Trajectory, at: int) -> Trajectory:
+    """Return the same motion with a piece that goes on over a tick made two."""
+    pieces, timing = [], []
+    for piece, (first, last) in zip(trajectory.pieces, trajectory.timing, strict=True):
+        if first < at < last:
+            share = (at - first) / (last - first)
+            a, b, c = piece.twist
+            head = (share * a, share * b, share * c)
+            pieces += [
+                replace(piece, twist=head),
+                replace(
+                    piece,
+                    start=piece.at(share),
+                    twist=(a - head[0], b - head[1], c - head[2]),
+                ),
+            ]
+            timing += [(first, at), (at, last)]
+        else:
+            pieces.append(piece)
+            timing.append((first, last))
+    return replace(trajectory, pieces=numbered(pieces), timing=tuple(timing))
+
+
+def paused(trajectory: Trajectory, at: int, by: int) -> Trajectory:
+    """Return a motion that stands still at a tick, at which nobody is within a turn, for a while.
+
+    Parameters
+    ----------
+    by
+        Ticks for which it stands; what comes afterwards is that much later.
+    """
+    path = split(trajectory, at)
+    timing = tuple((t + by, end + by) if t >= at else (t, end) for t, end in path.timing)
+    stops = tuple(
+        replace(stop, arrive=stop.arrive + by, leave=stop.leave + by) if stop.arrive >= at else stop
+        for stop in path.stops
+    )
+    return replace(path, timing=timing, stops=stops)
+
+
+def numbered(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
+    """Return pieces with ids in their order."""
+    return tuple(replace(piece, id=k) for k, piece in enumerate(pieces))
+
+
+def stays_of(grid: LaneGrid, trajectory: Trajectory) -> list[_core.CellStay]:
+    """Return when a robot is in the middle of each cell that it passes, by its trajectory.
+
+    A robot that starts between two cells has left the one behind at tick 0.
+    """
+    width = grid.size[0]
+    # Cell, arrive, depart, and when it turns.
+    stays: list[list[int]] = []
+
+    def visit(x: float, y: float, tick: int) -> list[int]:
+        cell = round(y) * width + round(x)
+        if stays and stays[-1][0] == cell:
+            stays[-1][2] = max(stays[-1][2], tick)
+        else:
+            stays.append([cell, tick, tick, tick, tick])
+        return stays[-1]
+
+    start = trajectory.start
+    x, y = start.x / grid.cell - 0.5, start.y / grid.cell - 0.5  # cells' middles at whole numbers
+    dx, dy = round(math.cos(start.theta)), round(math.sin(start.theta))
+    ahead = (x - round(x)) * dx + (y - round(y)) * dy
+    if abs(ahead) < _SAME:
+        visit(x, y, 0)
+    else:
+        behind = ahead if ahead > 0.0 else 1.0 + ahead
+        visit(x - behind * dx, y - behind * dy, 0)
+    for piece, (first, last) in zip(trajectory.pieces, trajectory.timing, strict=True):
+        x, y = piece.start.x / grid.cell - 0.5, piece.start.y / grid.cell - 0.5
+        length = piece.twist[0] / grid.cell
+        if length == 0.0:
+            stay = visit(x, y, last)
+            stay[3:] = [first, last]
+            continue
+        dx, dy = round(math.cos(piece.start.theta)), round(math.sin(piece.start.theta))
+        place = x * dx + y * dy
+        for middle in range(math.ceil(place - _SAME), math.floor(place + length + _SAME) + 1):
+            by = middle - place
+            visit(x + by * dx, y + by * dy, first + round(by / length * (last - first)))
+    stays[-1][2] = _core.NEVER
+    for stay in stays[:-1]:
+        if stay[3] == stay[4]:
+            stay[3:] = [stay[2], stay[2]]
+    return [_core.CellStay(*stay) for stay in stays]

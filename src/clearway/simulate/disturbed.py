@@ -45,6 +45,7 @@ class _Mover:
     progress: int = 0
     credit: float = 0.0  # part of a tick driven beyond the progress
     trip: Trip | None = None
+    commitment: Commitment | None = None
     waits: tuple[Wait, ...] = ()
     next_visit: int = 0
     is_served: bool = False  # whether the service of the next visit has begun
@@ -98,6 +99,7 @@ class Disturbed:
         self._executor.commit(commitments, now)
         for robot, commitment in commitments.items():
             mover = self._movers[robot]
+            mover.commitment = commitment
             mover.path, mover.waits = commitment.trajectory, commitment.waits
             if commitment.trip is not mover.trip:
                 mover.trip, mover.next_visit, mover.is_served = commitment.trip, 0, False
@@ -141,9 +143,13 @@ class Disturbed:
         if all(m.is_over or m.progress == now for m in self._movers.values()):
             return None
         paths = self._executor.projected(now)
+        retimed = {}
         for robot, path in paths.items():
             mover = self._movers[robot]
+            assert mover.commitment is not None
+            mover.commitment = retimed[robot] = replace(mover.commitment, trajectory=path, waits=())
             mover.path, mover.progress, mover.waits = path, now, ()
+        self._executor.commit(retimed, now)
         return paths
 
     def _draw_stop(self, mover: _Mover) -> None:

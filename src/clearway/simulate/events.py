@@ -92,7 +92,7 @@ def wait(
         "event": "wait",
         "t": to_seconds(now),
         "robot": robot,
-        "for": list(causes),
+        "for": list(causes) or ["plan"],
         "until": None if until is None else to_seconds(until),
         "because": because,
     }

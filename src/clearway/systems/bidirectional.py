@@ -68,7 +68,7 @@ def bidirectional(settings: BidirectionalSettings) -> Lifelong:
         grid = grid_of(scenario)
         kind = scenario.type_of(scenario.robots[0])
         moves = DynamicMap(grid, settings.map_mode)
-        return LaneTrips(grid, scenario.robots, kind, moves)
+        return LaneTrips(grid, scenario.robots, kind, moves, rules=settings.rules)
 
     def dispatch(scenario: Scenario) -> Dispatcher:
         params = ShelfParams(residence=settings.residence, lift=settings.lift, lower=settings.lower)

@@ -272,6 +272,17 @@ def without(trace: Trace, *wanted: Event) -> Trace:
     return with_events(trace, *(event for event in trace.events if id(event) not in out))
 
 
+def done_at_a_visit() -> Trace:
+    """Return an order of one visit, done after it has been visited but during another visit."""
+    story = Story({"a": Pose(2.0, 2.0, 0.0)})
+    story.release("o1", 0.0)
+    story.take("a", "o1", "order")
+    story.serve("a", "o1", "order", 1.0)
+    story.tell("order", 1.5, order="o1", state="done", robot="a")
+    story.serve("a", "o1", "order", 1.0)
+    return story.trace(status="done")
+
+
 def wrong_traces() -> dict[str, Trace]:
     """Return all wrong traces by the name of their file."""
     kinked = drives(1.0)
@@ -289,6 +300,18 @@ def wrong_traces() -> dict[str, Trace]:
     leaving.serve("a", None, "park", 2.0)
     leaving.clock["a"] = 1.5
     leaving.drive("a", 1.0)
+    back_in_time = Story({"a": Pose(2.0, 2.0, 0.0)})
+    back_in_time.serve("a", None, "park", 2.0)
+    back_in_time.clock["a"] = 0.5
+    back_in_time.drive("a", 0.5)
+    back_in_time.drive("a", -0.5)
+    gone = Story({"a": Pose(2.0, 2.0, 0.0)})
+    gone.serve("a", None, "park", 1.0)
+    gone.events.pop()
+    gone.drive("a", 0.5)
+    untaken = Story({"a": Pose(2.0, 2.0, 0.0)})
+    untaken.release("o1", 0.0)
+    untaken.serve("a", "o1", "order", 1.0)
     staying = errand_story()
     staying.serve("a", None, "park", 1.0)
     staying.events.pop()
@@ -300,6 +323,9 @@ def wrong_traces() -> dict[str, Trace]:
     shared.tell("load", 0.0, robot="a", objects=["S1"])
     shared.tell("load", 1.0, robot="b", objects=["S1"])
     block = replace(FLOOR, obstacles=(Obstacle(polygon=((6.0, 4.0), (7.0, 4.0), (7.0, 6.0))),))
+    stranger = Robot("b", "cart", Pose(2.0, 8.0, 0.0))
+    done_by_another = changed("order", 3, robot="b")
+    done_by_another = replace(done_by_another, robots=(*errand().robots, stranger))
     unassigned, early = errand(), errand(waiting=1.0)
     return {
         "clock": changed("order", 3, t=1.5),
@@ -320,6 +346,8 @@ def wrong_traces() -> dict[str, Trace]:
         "visit": changed("visit", pose=[3.02, 2.0, 0.0]),
         "visit--heading": changed("visit", pose=[3.0, 2.0, 0.02]),
         "visit--leaves-early": leaving.trace(status="ended"),
+        "visit--goes-and-returns": back_in_time.trace(status="ended"),
+        "visit--not-left-but-gone": gone.trace(status="ended"),
         "visit--never-left": staying.trace(**closing()),
         "visit--never-arrived": told("visit", 2.0, robot="a", task=None, state="left"),
         "service": changed("visit", service=1.5),
@@ -327,6 +355,9 @@ def wrong_traces() -> dict[str, Trace]:
         "order--done-early": without(early, *early.of("visit")),
         "order--more-visits": changed("order", visits=2),
         "order--of-another": stolen.trace(status="ended"),
+        "order--untaken": untaken.trace(status="ended"),
+        "order--done-by-another": done_by_another,
+        "order--done-at-a-visit": done_at_a_visit(),
         "order--released-twice": told("order", 3.0, order="o1", state="released"),
         "load": shared.trace(status="ended"),
         "load--too-many": told("load", 0.0, robot="a", objects=["S1", "S2"]),
@@ -339,6 +370,7 @@ def wrong_traces() -> dict[str, Trace]:
         "end--goes-on": with_events(
             errand(), *errand().events, {"event": "energy", "t": 3.0, "robot": "a", "level": 1.0}
         ),
+        "end--twice": with_events(errand(), *errand().events, errand().events[-1]),
         "end--not-done": right(status="done"),
     }
 

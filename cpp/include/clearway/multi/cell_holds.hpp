@@ -51,6 +51,9 @@ struct Clash {
   Ticks at = 0;  // when both begin to hold it
 };
 
+// A route whose robot goes on from the middle of a cell later, and turns there later.
+std::vector<CellStay> delayed(std::vector<CellStay> route, std::size_t index, Ticks by);
+
 class CellHolds {
  public:
   // `step`: ticks from a cell to the next; `wide`: bodies that cannot turn side by side.
@@ -67,8 +70,15 @@ class CellHolds {
   void remove(int robot);
   const std::vector<CellStay>& route(int robot) const { return routes_[checked(robot)]; }
 
-  // Conflicts of a timed route with what all others hold, by their moments.
-  std::vector<Clash> clashes(int robot, const std::vector<CellStay>& route) const;
+  // Conflicts of a timed route with what all others hold, by their moments. Nobody goes before
+  // another into a cell that this one begins to hold before `granted`.
+  std::vector<Clash> clashes(int robot, const std::vector<CellStay>& route,
+                             Ticks granted = 0) const;
+
+  // By how much a robot must go on later from the cell at `index` of its route so that it meets
+  // nothing of another's from there on; -1: it cannot by waiting there.
+  Ticks least_delay(int robot, const std::vector<CellStay>& route, std::size_t index, int other,
+                    Ticks granted = 0) const;
 
   // First of the holds of a cell; -1: nobody ever.
   int first(int cell) const { return heads_[static_cast<std::size_t>(cell)]; }
@@ -82,6 +92,7 @@ class CellHolds {
  private:
   std::size_t checked(int robot) const;
   void check(const std::vector<CellStay>& route) const;
+  bool meet(const Hold& mine, const Hold& theirs, Ticks granted) const;
   Hold hold_of(const std::vector<CellStay>& route, std::size_t i) const;
 
   int width_, height_;

@@ -19,7 +19,8 @@ namespace clearway {
 struct LaneQuery {
   int robot = 0;  // whose own holds are no matter
   int start = 0, goal = 0;
-  Ticks now = 0;  // it may set out from here on
+  Ticks now = 0;      // it may set out from here on
+  Ticks granted = 0;  // nobody goes first where another begins to hold a cell before
   // Ticks of turning from the first heading to each direction, and from each to the last heading.
   std::array<Ticks, 4> first_turn{}, last_turn{};
 };

@@ -110,13 +110,14 @@ class Timeline {
 
   show(time, chosen, ink) {
     const width = this.holder.clientWidth;
-    if (!width || !(this.isSeen || !this.key)) return;
+    if (!width) return;
+    this.frame = this.view;
+    if (this.key && !this.isSeen) return;
     const sharp = Math.min(3, window.devicePixelRatio || 1);
     const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     [this.width, this.height] = [width, HEAD + LINE * robots.length + 4];
     this.letters = clamp(longest, 3, width < 600 ? 8 : 16);
     this.left = 24 + 7.6 * this.letters;
-    this.frame = this.view;
     const key = [width, sharp, ink.floor, chosen && chosen.index, ...this.frame].join();
     if (key !== this.key) {
       this.key = key;
