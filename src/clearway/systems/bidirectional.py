@@ -103,4 +103,20 @@ def _unsupported(scenario: Scenario) -> tuple[str, ...]:
         for order in scenario.orders
         if order.task.fetches is None
     ]
+    reasons += [
+        f"stream {stream.name}: has visits of its own; system B fetches shelves (fetch = true)"
+        for stream in scenario.simulation.streams
+        if not stream.fetch
+    ]
+    reasons += [
+        f"task {order.task.id}: is kept for {order.task.robot}, but system B sends the nearest; "
+        "drop robot"
+        for order in scenario.orders
+        if order.task.robot is not None
+    ]
+    reasons += [
+        f"task {order.task.id}: waits for other tasks, which system B does not; drop after"
+        for order in scenario.orders
+        if order.after
+    ]
     return tuple(reasons)
