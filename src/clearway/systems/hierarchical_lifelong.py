@@ -2,6 +2,7 @@
 
 from dataclasses import asdict
 
+from clearway.assign import NearestOrder, OldestOrder
 from clearway.coordinate import Lifelong
 from clearway.execute import BodyConflicts, RightOfWay
 from clearway.model import Scenario
@@ -17,9 +18,7 @@ def hierarchical_lifelong(settings: HierarchicalSettings) -> Lifelong:
     """
 
     def dispatch(scenario: Scenario) -> Dispatcher:
-        from clearway.assign.nearest_order import NearestOrder
-
-        return NearestOrder(scenario, oldest=settings.dispatch == "oldest")
+        return OldestOrder(scenario) if settings.dispatch == "oldest" else NearestOrder(scenario)
 
     def execute(scenario: Scenario) -> Executor:
         types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
