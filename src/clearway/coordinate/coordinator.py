@@ -30,11 +30,15 @@ class CoordinatorParams:
         Ticks between two tries at the most.
     most_effort
         By how much the effort for a robot that is refused again and again may grow.
+    lead
+        Ticks from now on in which robots may do what they have been granted; new motion begins
+        no sooner.
     """
 
     retry: int = TICKS_PER_SECOND
     most_retry: int = 8 * TICKS_PER_SECOND
     most_effort: int = 16
+    lead: int = 0
 
 
 class Coordinator:
@@ -85,7 +89,7 @@ class Coordinator:
         done = self._end_trips(seen)
         board.arrived = tuple(order.task.id for order in seen.arrived)
         for obstacle in seen.found:
-            for robot in self._trips.block(obstacle, seen.now):
+            for robot in self._trips.block(obstacle, seen.now + self._params.lead):
                 changed[robot] = commitment = self._trips.commitment(robot)
                 trip = board.robots[robot].trip
                 if trip is not None and commitment.trip is None:
@@ -118,7 +122,7 @@ class Coordinator:
             return None
         begin = self._cpu()
         effort = min(2**times, self._params.most_effort)
-        outcome = self._trips.plan(trip, board.now, effort)
+        outcome = self._trips.plan(trip, board.now + self._params.lead, effort)
         spent = self._cpu() - begin
         if isinstance(outcome, Refusal):
             pause = min(self._params.retry * 2**times, self._params.most_retry)

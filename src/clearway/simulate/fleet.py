@@ -149,7 +149,7 @@ class SimulatedFleet:
         for robot in self._trips:
             self._flush(robot)
             if self._trips[robot] is not None:
-                self._account(robot)
+                self._account(robot, self._now)
         self._record(
             {
                 "event": "end",
@@ -213,7 +213,7 @@ class SimulatedFleet:
         self._load(one.tick, trip, trip.visits[one.visit], last)
         if not last:
             return False
-        self._account(robot)
+        self._account(robot, one.tick)
         self._trips[robot] = None
         self._left_idle.append(robot)
         self._charge(one.tick, robot, trip)
@@ -271,10 +271,10 @@ class SimulatedFleet:
         if battery is not None:
             self._level[robot] = max(0.0, self._level[robot] - to_seconds(moved) / battery.capacity)
 
-    def _account(self, robot: str) -> None:
+    def _account(self, robot: str, end: int) -> None:
         """Count the standing of a trip that was not at a visit."""
-        at_visits = self._at_visits[robot] + self._now - self._arrived.get(robot, self._now)
-        lasted = self._now - self._since[robot]
+        at_visits = self._at_visits[robot] + end - self._arrived.get(robot, end)
+        lasted = end - self._since[robot]
         self._waited += max(0, lasted - self._moved[robot] - at_visits)
 
     def _find(self) -> tuple[Obstacle, ...]:

@@ -14,6 +14,7 @@ from clearway.execute import CellConflicts, RightOfWay
 from clearway.model import Scenario
 from clearway.plan import LaneTrips
 from clearway.protocols import Dispatcher, Executor
+from clearway.simulate.disturbed import PERIOD
 from clearway.systems.settings import SettingsError
 from clearway.world.channels import RULES, lane_grid
 from clearway.world.dynamic_map import DynamicMap
@@ -78,7 +79,7 @@ def bidirectional(settings: BidirectionalSettings) -> Lifelong:
         return NearestIdle(scenario, params, by_route)
 
     def execute(scenario: Scenario) -> Executor:
-        return RightOfWay(CellConflicts(grid_of(scenario)))
+        return RightOfWay(CellConflicts(grid_of(scenario)), PERIOD)
 
     return Lifelong(
         name="bidirectional",

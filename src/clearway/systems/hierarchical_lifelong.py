@@ -9,6 +9,7 @@ from clearway.model import Problem, Scenario
 from clearway.plan import TailTrips
 from clearway.plan.prioritised import unplannable
 from clearway.protocols import Dispatcher, Executor
+from clearway.simulate.disturbed import PERIOD
 from clearway.systems.hierarchical import HierarchicalSettings
 
 
@@ -22,7 +23,8 @@ def hierarchical_lifelong(settings: HierarchicalSettings) -> Lifelong:
         return (OldestOrder if settings.dispatch == "oldest" else NearestOrder)(scenario)
 
     def execute(scenario: Scenario) -> Executor:
-        return RightOfWay(BodyConflicts({r.id: scenario.type_of(r) for r in scenario.robots}))
+        types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
+        return RightOfWay(BodyConflicts(types), PERIOD)
 
     return Lifelong(
         name="hierarchical",
