@@ -1,6 +1,6 @@
 """The figures of a run through time, against sums worked by hand.
 
-The day of tests/data/bad_traces/make.py lasts 27 s. Cart ``a`` is on trips from 0 to 27 s, waits
+The day of tests/data/bad_traces/story.py lasts 27 s. Cart ``a`` is on trips from 0 to 27 s, waits
 1 s for its own stop, and is at visits for 2 + 3 + 1 s; it drives 5 m empty, then 15 m with a shelf.
 Cart ``b`` is on trips from 1 to 11 s and from 17 to 22 s, waits 2 s for ``a``, is at visits for
 2 + 5 s, and drives 6 m empty for its order and 6 m back for nobody.

@@ -66,7 +66,7 @@ class SimulatedFleet:
         self._now, self._wake = 0, None
         self._open: set[str] = set()
         self._taken: set[str] = set()
-        self._assigned: set[str | None] = set()  # but not started
+        self._assigned: set[str] = set()  # but not started
         self._done, self._failed = 0, 0
         self._last_done = 0
         self._waited = 0
@@ -204,7 +204,7 @@ class SimulatedFleet:
         self._record(events.visit(one.tick, robot, trip, one.visit, one.kind))
         if one.kind == "arrived":
             self._arrived[robot] = one.tick
-            if trip.order in self._assigned:
+            if trip.order is not None and trip.order in self._assigned:
                 self._assigned.discard(trip.order)
                 self._record(events.order(one.tick, trip.order, "started", robot=robot))
             return False

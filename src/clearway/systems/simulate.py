@@ -133,6 +133,10 @@ def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
     disturbances = scenario.simulation.disturbances
     if not disturbances:
         return OnTime(scenario.robots)
+    for robot in scenario.robots:
+        if scenario.type_of(robot).limits.has_ramps:
+            what = f"robot type {robot.type}: has limits on acceleration"
+            raise Unsupported(f"{what}, which robots that stop at random do not keep; remove them")
     return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
 
 
