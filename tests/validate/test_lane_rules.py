@@ -122,6 +122,20 @@ def test_whoever_catches_up_is_in_a_cell_with_the_other():
     assert set(kinds) == {"hold"}
 
 
+def test_who_comes_before_the_other_sets_out_is_in_a_cell_with_it():
+    """The first stands in (8, 1) until 2 s; the second is slow, but on its way from 1 s on."""
+    first = _walk([(8, 1), (7, 1)], begin=2.0)
+    assert _kinds({"a": first, "b": _walk([(9, 1), (8, 1)], begin=2.0)}) == []
+    assert _kinds({"a": first, "b": _walk([(9, 1), (8, 1)], begin=1.0, step=2.0)}) == ["hold"]
+
+
+def test_who_leaves_after_the_other_has_come_does_not_change_places():
+    """The second runs into (8, 1), where the first stands until 5 s before it goes east."""
+    first = _walk([(8, 1), (9, 1)], begin=5.0)
+    second = _walk([(9, 1), (8, 1)])
+    assert _kinds({"a": first, "b": second}) == ["hold", "lane"]
+
+
 def test_a_cell_left_sideways_is_not_entered_before_it_is_clear():
     """Eq. (10): the first turns south at (12, 4)'s column while the other comes from behind."""
     first = _walk(_path((13, 5), (12, 5), (12, 2)))
