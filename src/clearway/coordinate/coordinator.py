@@ -89,7 +89,7 @@ class Coordinator:
         done = self._end_trips(seen)
         board.arrived = tuple(order.task.id for order in seen.arrived)
         for obstacle in seen.found:
-            for robot in self._trips.block(obstacle, seen.now + self._params.lead):
+            for robot in self._trips.block(obstacle, seen.now, self._params.lead):
                 changed[robot] = commitment = self._trips.commitment(robot)
                 trip = board.robots[robot].trip
                 if trip is not None and commitment.trip is None:
@@ -122,7 +122,7 @@ class Coordinator:
             return None
         begin = self._cpu()
         effort = min(2**times, self._params.most_effort)
-        outcome = self._trips.plan(trip, board.now + self._params.lead, effort)
+        outcome = self._trips.plan(trip, board.now, effort, self._params.lead)
         spent = self._cpu() - begin
         if isinstance(outcome, Refusal):
             pause = min(self._params.retry * 2**times, self._params.most_retry)

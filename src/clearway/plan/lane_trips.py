@@ -130,7 +130,7 @@ class LaneTrips:
         for robot in robots:
             self._place(robot)
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         """Commit a robot to drive to its visit's endpoint; others may be made to wait for it."""
         self.changed = ()
         if refusal := self._refusal(trip):
@@ -138,7 +138,7 @@ class LaneTrips:
         me = self._number[trip.robot]
         old = self._committed[trip.robot]
         start, goal = old.trajectory.final_pose, trip.visits[0].pose
-        ready = max(now, old.served)
+        ready = max(now + lead, old.served)
         way = self._by_rules(me, start, goal, ready, now) if self._rules else None
         if way is None:
             way = self._by_search(me, start, goal, ready, now, LIMIT * effort)
@@ -168,7 +168,7 @@ class LaneTrips:
             )
             self._holds.put(self._number[robot], stays_of(self.grid, trajectory))
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle at tick ``now``; return the robots whose motion runs into it."""
         raise NotImplementedError
 

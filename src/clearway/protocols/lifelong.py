@@ -27,12 +27,19 @@ class TripPlanner(Protocol):
     one ends in a rest that no other crosses later (see "Planning for ever" in docs/design.md).
     """
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         """Commit the robot to a trip, or change nothing and say why not.
 
-        Its motion is planned anew from the first moment at or after tick ``now`` at which its
-        services are done and a new motion may begin. ``effort`` multiplies the planner's own
-        limit on expansions: larger for trips that were refused before.
+        Parameters
+        ----------
+        now
+            Tick; what was driven before may be forgotten.
+        effort
+            Multiplies the planner's own limit on expansions: larger for trips that were refused
+            before.
+        lead
+            Its motion is planned anew from the first moment, so many ticks from now or later, at
+            which its services are done and a new motion may begin.
         """
         ...
 
@@ -54,7 +61,7 @@ class TripPlanner(Protocol):
         """Take over the same paths at other times, after delays; all robots' at once."""
         ...
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle at tick ``now``; return the robots whose motion runs into it.
 
         Each of those is committed anew to what can be kept of its trip, from its motion; the
