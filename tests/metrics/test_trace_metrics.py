@@ -57,6 +57,14 @@ def test_travel_for_orders_with_nothing_on_board_is_empty(day) -> None:
     assert (a.distance, a.empty) == pytest.approx((20.0, 5.0))
     assert (b.distance, b.empty) == pytest.approx((12.0, 6.0))
     assert day.empty_share == pytest.approx(11 / 32)
+    assert day.pickups == 1
+
+
+def test_a_fleet_that_never_carries_is_not_told_to_drive_empty(traces) -> None:
+    """Without anything to carry there is no empty travel to speak of."""
+    metrics = trace_metrics(traces.errand())
+    assert (metrics.pickups, metrics.empty_share) == (0, pytest.approx(1.0))
+    assert "empty" not in told(metrics)
 
 
 def test_energy_used_is_what_levels_drop(day) -> None:
