@@ -82,7 +82,7 @@ class AlongLanes:
     def counters(self) -> Mapping[str, int]:
         return {"expansions": len(self.efforts)}
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         raise NotImplementedError
 
     def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:

@@ -159,7 +159,7 @@ class LaneTrips:
         """Return what a robot is committed to; standing at its start before its first trip."""
         return self._committed[robot]
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         for robot, trajectory in trajectories.items():
             old = self._committed[robot]

@@ -128,14 +128,14 @@ class TailTrips:
         tail = self._fleet.core.alone(query)
         return int(tail.stops[-1].leave) if tail.found else None
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times."""
         fleet = self._fleet
         for robot, trajectory in trajectories.items():
             old = fleet.commitments[robot]
             waits = retimed_waits(old, trajectory)
             fleet.commitments[robot] = Commitment(robot, trajectory, old.trip, old.rest, waits)
-            fleet.place(robot, trajectory.timing[0][0] if trajectory.timing else 0)
+            fleet.place(robot, now)
 
     def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle; see `clearway.protocols.TripPlanner`."""

@@ -57,7 +57,7 @@ class TripPlanner(Protocol):
         """What planning has come to so far: ``expansions``, and what else the planner counts."""
         ...
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         ...
 
@@ -207,12 +207,24 @@ class Told:
 
 @dataclass(frozen=True)
 class Decision:
-    """New commitments, why, and when to ask again at the latest (tick)."""
+    """New commitments, why, and when to ask again at the latest (tick).
+
+    Parameters
+    ----------
+    done, failed
+        Orders; those that failed with the reason.
+    diverted
+        Robots that an obstacle stood in the way of.
+    given_back
+        Orders that those could not go on with: they are open again.
+    """
 
     commitments: Mapping[str, Commitment] = field(default_factory=dict)
     told: Sequence[Told] = ()
     done: Sequence[str] = ()
     failed: Mapping[str, str] = field(default_factory=dict)
+    diverted: Sequence[str] = ()
+    given_back: Sequence[str] = ()
     wake: int | None = None
 
 

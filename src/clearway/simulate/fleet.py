@@ -66,6 +66,7 @@ class SimulatedFleet:
         self._now, self._wake = 0, None
         self._open: set[str] = set()
         self._taken: set[str] = set()
+        self._taken_up: set[str] = set()  # at least once
         self._assigned: set[str] = set()  # but not started
         self._done, self._failed = 0, 0
         self._last_done = 0
@@ -109,6 +110,14 @@ class SimulatedFleet:
             self._done += 1
             self._last_done = now
             self._record(events.order(now, id_, "done"))
+        for id_ in decision.given_back:
+            self._taken.discard(id_)
+            self._assigned.discard(id_)
+            reason = "given back: an obstacle bars the way"
+            self._record(events.order(now, id_, "released", reason=reason))
+        for robot in decision.diverted:
+            commitment = decision.commitments[robot]
+            self._record(events.detour(now, self._trips[robot], commitment))
         for told in decision.told:
             self._record(events.decision(now, told))
             trip = told.choice.trip
@@ -117,10 +126,13 @@ class SimulatedFleet:
         for id_, reason in decision.failed.items():
             self._open.discard(id_)
             self._failed += 1
+            self._take_up(id_)
             self._record(events.order(now, id_, "failed", reason=reason))
         for robot, commitment in decision.commitments.items():
             self._flush(robot)
             if commitment.trip is not self._trips[robot]:
+                if self._trips[robot] is not None:
+                    self._account(robot, now)
                 self._begin(robot, commitment.trip)
             self._rest_at[robot] = commitment.trajectory.end
         self._motion.commit(decision.commitments, now)
@@ -244,11 +256,18 @@ class SimulatedFleet:
 
     def _take(self, trip: Trip) -> None:
         assert trip.order is not None
-        if trip.order not in self._taken:
-            self._taken.add(trip.order)
-            self._assigned.add(trip.order)
-            self._record(events.order(self._now, trip.order, "assigned", robot=trip.robot))
-            self._arriving.taken(trip.order, self._now)
+        if trip.order in self._taken:
+            return
+        self._taken.add(trip.order)
+        self._assigned.add(trip.order)
+        self._record(events.order(self._now, trip.order, "assigned", robot=trip.robot))
+        self._take_up(trip.order)
+
+    def _take_up(self, order: str) -> None:
+        """Tell where orders come from, once, that one is no longer waiting."""
+        if order not in self._taken_up:
+            self._taken_up.add(order)
+            self._arriving.taken(order, self._now)
 
     def _begin(self, robot: str, trip: Trip | None) -> None:
         self._trips[robot] = trip
