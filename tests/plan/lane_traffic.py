@@ -1,6 +1,7 @@
 """Random trips between endpoints without an end, and what robots drove, for the judge."""
 
 import random
+from collections.abc import Mapping
 from dataclasses import replace
 
 from clearway.formats.recording import record_plan
@@ -27,10 +28,12 @@ LAYOUTS = ("bidirectional", "compact", "one_way")
 class Traffic:
     """Robots that drive from one random endpoint to the next, ten seconds of service at each."""
 
-    def __init__(self, layout: Layout, num_robots: int, turn_seconds=0.0, seed=0, **options):
+    def __init__(
+        self, layout: Layout, num_robots: int, turn_seconds=0.0, seed=0, kind=None, **options
+    ):
         self.layout = layout
         self.grid = lane_grid(layout)
-        self.type = agv_type(layout, turn_seconds)
+        self.type = kind or agv_type(layout, turn_seconds)
         self.random = random.Random(seed)
         places = self.random.sample(sorted(self.grid.endpoints), num_robots)
         self.robots = tuple(
@@ -42,6 +45,7 @@ class Traffic:
         self.told: dict[str, list[Commitment]] = {robot.id: [] for robot in self.robots}
         self.rests = {robot.id: place for robot, place in zip(self.robots, places, strict=True)}
         self.done = [(0, robot.id) for robot in self.robots]
+        self.status = Status.SOLVED
 
     def trip(self, robot: str, service: float = 10.0) -> Trip:
         """Return a trip to a random endpoint that nobody owns."""
@@ -84,6 +88,15 @@ class Traffic:
             self.note(self.told[robot][-1])
         return concerned
 
+    def retime(self, paths: Mapping[str, Trajectory]) -> None:
+        """Begin anew, from where robots are, with the same paths at other times."""
+        self.planner.retime(paths)
+        self.robots = tuple(replace(robot, start=paths[robot.id].start) for robot in self.robots)
+        for robot in self.robots:
+            self.told[robot.id] = [self.planner.commitment(robot.id)]
+            self.note(self.told[robot.id][0])
+        self.status = Status.STOPPED
+
     def note(self, commitment: Commitment) -> None:
         """Note where a robot will rest, and when it is done."""
         self.rests[commitment.robot] = commitment.rest
@@ -100,7 +113,7 @@ class Traffic:
             name: tuple(visit for c in told if c.trip for visit in c.trip.visits)
             for name, told in self.told.items()
         }
-        plan = Plan(Status.SOLVED, self.driven(), tours, {})
+        plan = Plan(self.status, self.driven(), tours, {}, None if self.status else "begun late")
         site = replace(site_of(self.layout), obstacles=tuple(obstacles))
         scenario = Scenario("traffic", site, {self.type.name: self.type}, self.robots, ())
         return record_plan(scenario, plan, seed=0, version="")
