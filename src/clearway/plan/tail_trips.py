@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from clearway import _core
-from clearway.model import Commitment, Obstacle, Pose, Scenario, Trajectory, Trip
+from clearway.model import Commitment, Obstacle, Pose, Scenario, Trajectory, Trip, to_ticks
 from clearway.plan.cut import Kept
 from clearway.plan.detour import Detour
 from clearway.plan.named_waits import retimed_waits
@@ -28,19 +28,22 @@ class TailTripsParams:
     most_rests
         Free bays that a tail may end in, the nearest to its last visit; more find more, and each
         estimate takes longer.
-    last_resort
-        Effort from which on a trip that finds no way waits in its bay until all are at rest.
+    patience
+        Seconds after its first refusal from which on a robot that finds no way waits in its bay
+        until all are at rest, which is sure to work; longer finds sooner ways more often.
     core
         Parameters of the search.
     """
 
-    search_limit: int = 4000
+    search_limit: int = 2000
     most_rests: int = 3
-    last_resort: int = 8
+    patience: float = 60.0
     core: _core.TailParams = field(default_factory=_core.TailParams)
 
     def __post_init__(self) -> None:
-        for name in ("search_limit", "most_rests", "last_resort"):
+        if not self.patience >= 0.0:
+            raise ValueError(f"patience must be 0 or above, got {self.patience}")
+        for name in ("search_limit", "most_rests"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, got {getattr(self, name)}")
 
@@ -73,6 +76,7 @@ class TailTrips:
         self.params = params or TailTripsParams()
         self._fleet = TailFleet(scenario, self.params.core, self.params.most_rests)
         self._counters: Counter[str] = Counter()
+        self._refused: dict[str, int] = {}  # since when
         self._park()
 
     @property
@@ -100,7 +104,8 @@ class TailTrips:
         if not tail.found and tail.exhausted and self._is_closed(query):
             reason = "even with nobody else on the site no way leads through its visits to a bay"
             return Refusal(reason, for_good=True, expansions=spent)
-        if not tail.found and effort >= self.params.last_resort:
+        waited = now - self._refused.setdefault(robot, now)
+        if not tail.found and waited >= to_ticks(self.params.patience):
             # With all at rest, the way from its bay and back is as good as alone.
             all_rest = max(fleet.core.settled(i) for i in range(len(fleet.ids)))
             kept = fleet.cut(robot, now, max(now + lead, all_rest))
@@ -112,6 +117,7 @@ class TailTrips:
         if not tail.found:
             causes = tuple(fleet.ids[i] for i in tail.met)
             return Refusal(f"no way found in {spent} expansions", causes, expansions=spent)
+        del self._refused[robot]
         return fleet.commit(robot, kept, tail, rests, trip)
 
     def commitment(self, robot: str) -> Commitment:
