@@ -12,6 +12,8 @@ const BAR = {
 const SPANS = [["the whole run", Infinity], ["30 min", 1800], ["10 min", 600], ["3 min", 180], ["1 min", 60]];
 const LINE = 22;
 const HEAD = 24;
+// Browsers draw no canvas that is taller (pixels).
+const TALLEST = 16000;
 
 class Timeline {
   constructor(holder, select, player, choose) {
@@ -113,9 +115,9 @@ class Timeline {
     if (!width) return;
     this.frame = this.view;
     if (this.key && !this.isSeen) return;
-    const sharp = Math.min(3, window.devicePixelRatio || 1);
-    const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     [this.width, this.height] = [width, HEAD + LINE * robots.length + 4];
+    const sharp = Math.min(3, window.devicePixelRatio || 1, TALLEST / this.height);
+    const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     this.letters = clamp(longest, 3, width < 600 ? 8 : 16);
     this.left = 24 + 7.6 * this.letters;
     const key = [width, sharp, ink.floor, chosen && chosen.index, ...this.frame].join();
