@@ -10,6 +10,10 @@ NB_MODULE(_core, m) {
   clearway::bindings::bind_motion(m);
   clearway::bindings::bind_prioritised(m);
   clearway::bindings::bind_conflict_search(m);
+  clearway::bindings::bind_lanes(m);
   clearway::bindings::bind_lone_legs(m);
+  clearway::bindings::bind_route_search(m);
+  clearway::bindings::bind_tail_planner(m);
+  clearway::bindings::bind_path_conflicts(m);
   clearway::bindings::bind_assign(m);
 }

@@ -919,6 +919,110 @@ class ConflictAnswer:
 def search_conflicts(models: Sequence[Model], agents: Sequence[Agent], params: ConflictParams, expansions: int = -1, seconds: float | None = None, progress: Callable[[int, int, float, float], None] | None = None) -> ConflictAnswer:
     """Plan a team by conflict-based search on bodies."""
 
+class CellStay:
+    """One cell of a timed route; times in ticks."""
+
+    def __init__(self, cell: int, arrive: int, depart: int, turn_begin: int = 0, turn_end: int = 0) -> None: ...
+
+    @property
+    def cell(self) -> int:
+        """y times width plus x."""
+
+    @property
+    def arrive(self) -> int: ...
+
+    @property
+    def depart(self) -> int:
+        """`NEVER` of the last one."""
+
+    @property
+    def turn_begin(self) -> int: ...
+
+    @property
+    def turn_end(self) -> int: ...
+
+class Clash:
+    """Two robots that hold a cell at once, or turn side by side."""
+
+    @property
+    def cell(self) -> int: ...
+
+    @property
+    def index(self) -> int:
+        """Of the cell in the route asked about."""
+
+    @property
+    def other(self) -> int:
+        """The robot in the way."""
+
+    @property
+    def other_index(self) -> int:
+        """Of the cell in its route."""
+
+    @property
+    def at(self) -> int:
+        """Tick at which both begin to hold it."""
+
+class CellHolds:
+    """Who holds which cell of a lane grid when."""
+
+    def __init__(self, width: int, height: int, num_robots: int, step: int, wide: bool = False) -> None: ...
+
+    def put(self, robot: int, route: Sequence[CellStay]) -> None:
+        """Replace what a robot holds by a timed route."""
+
+    def remove(self, robot: int) -> None: ...
+
+    def route(self, robot: int) -> list[CellStay]: ...
+
+    def clashes(self, robot: int, route: Sequence[CellStay], granted: int = 0) -> list[Clash]:
+        """
+        Conflicts of a timed route with what all others hold, by their moments. Nobody goes before another into a cell that this one begins to hold before `granted`.
+        """
+
+    def least_delay(self, robot: int, route: Sequence[CellStay], index: int, other: int, granted: int = 0) -> int:
+        """
+        Ticks by which a robot must go on later from a cell of its route so that it meets nothing of another's from there on; -1: it cannot by waiting there.
+        """
+
+    def holders(self, cell: int, since: int) -> list[int]:
+        """Robots that hold a cell after a tick."""
+
+def delayed(route: Sequence[CellStay], index: int, by: int) -> list[CellStay]:
+    """
+    A route whose robot goes on from the middle of a cell later, and turns there later.
+    """
+
+class LaneWay:
+    """What a search over a lane grid found."""
+
+    @property
+    def found(self) -> bool: ...
+
+    @property
+    def stays(self) -> list[CellStay]: ...
+
+    @property
+    def behind(self) -> list[int]:
+        """Per stay: the robot waited for there before it departs; -1: nobody."""
+
+    @property
+    def ready(self) -> int:
+        """Tick at which it has turned to its last heading."""
+
+    @property
+    def expansions(self) -> int: ...
+
+class LaneSearch:
+    """Earliest way over a lane grid past what others hold."""
+
+    def __init__(self, holds: CellHolds, may_wait: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], turn: int) -> None: ...
+
+    def __call__(self, holds: CellHolds, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, granted: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
+        """
+        `moves` holds bits of the legal directions out of each cell; the earliest arrival wins.
+        """
+
 class LoneLeg:
     """From one pose to another, with a body."""
 
@@ -927,6 +1031,223 @@ class LoneLeg:
 def lone_durations(model: Model, params: TeamParams, legs: Sequence[LoneLeg]) -> list[int]:
     """
     Ticks that each leg takes with nobody else on the site; -1 where no way is found.
+    """
+
+class RouteSearch:
+    """Best routes over square cells with legal moves."""
+
+    def __init__(self, lanes: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], step: int, turn: int) -> None: ...
+
+    def __call__(self, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], start: int, goal: int, heading: int) -> list[int]:
+        """
+        Cells (numbered row by row) from start to goal; none where there is no way.
+        """
+
+    @property
+    def expansions(self) -> int:
+        """Nodes expanded in the last search."""
+
+class TailParams:
+    """Parameters of always-complete planning."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def search(self) -> SearchParams: ...
+
+    @search.setter
+    def search(self, arg: SearchParams, /) -> None: ...
+
+    @property
+    def objective(self) -> Objective: ...
+
+    @objective.setter
+    def objective(self, arg: Objective, /) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+class TailQuery:
+    """A new tail that is asked for."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def robot(self) -> int: ...
+
+    @robot.setter
+    def robot(self, arg: int, /) -> None: ...
+
+    @property
+    def now(self) -> int: ...
+
+    @now.setter
+    def now(self, arg: int, /) -> None: ...
+
+    @property
+    def kept(self) -> list[TimedPiece]: ...
+
+    @kept.setter
+    def kept(self, arg: Sequence[TimedPiece], /) -> None: ...
+
+    @property
+    def start(self) -> Pose: ...
+
+    @start.setter
+    def start(self, arg: Pose, /) -> None: ...
+
+    @property
+    def mode(self) -> int: ...
+
+    @mode.setter
+    def mode(self, arg: int, /) -> None: ...
+
+    @property
+    def ready(self) -> int: ...
+
+    @ready.setter
+    def ready(self, arg: int, /) -> None: ...
+
+    @property
+    def legs(self) -> list[Leg]: ...
+
+    @legs.setter
+    def legs(self, arg: Sequence[Leg], /) -> None: ...
+
+    @property
+    def rests(self) -> list[Pose]: ...
+
+    @rests.setter
+    def rests(self, arg: Sequence[Pose], /) -> None: ...
+
+    @property
+    def rest_body(self) -> int: ...
+
+    @rest_body.setter
+    def rest_body(self, arg: int, /) -> None: ...
+
+    @property
+    def fine(self) -> bool: ...
+
+    @fine.setter
+    def fine(self, arg: bool, /) -> None: ...
+
+    @property
+    def limit(self) -> int: ...
+
+    @limit.setter
+    def limit(self, arg: int, /) -> None: ...
+
+class Tail:
+    """What a search for a tail came to."""
+
+    @property
+    def found(self) -> bool: ...
+
+    @property
+    def exhausted(self) -> bool: ...
+
+    @property
+    def pieces(self) -> list[TimedPiece]: ...
+
+    @property
+    def stops(self) -> list[TourStop]: ...
+
+    @property
+    def rest(self) -> int: ...
+
+    @property
+    def expansions(self) -> int: ...
+
+    @property
+    def met(self) -> list[int]: ...
+
+class Meeting:
+    """Whom a robot meets, and where it is then."""
+
+    @property
+    def robot(self) -> int: ...
+
+    @property
+    def at(self) -> Pose: ...
+
+class TailPlanner:
+    """Everybody's committed motion, of which tails are replaced one by one."""
+
+    def __init__(self, models: Sequence[Model], model_of: Sequence[int], params: TailParams) -> None: ...
+
+    def place(self, robot: int, now: int, start: Pose, pieces: Sequence[TimedPiece], body: int) -> None: ...
+
+    def plan(self, query: TailQuery) -> Tail:
+        """Commit a robot to a new tail, if one is found."""
+
+    def alone(self, query: TailQuery) -> Tail:
+        """The tail that it would have with nobody else on the site."""
+
+    def meetings(self, robot: int, pieces: Sequence[TimedPiece], earlier: int) -> list[Meeting]:
+        """
+        Whom a robot would meet first if it drove pieces so many ticks earlier.
+        """
+
+    def clear_until(self, robot: int, now: int, statics: Sequence[Statics]) -> int:
+        """
+        Last tick up to which a robot's motion is clear of what stands; NEVER if always.
+        """
+
+    def settled(self, robot: int) -> int:
+        """When a robot comes to its last rest."""
+
+    def rebuild(self, statics: Sequence[Sequence[Statics]]) -> None:
+        """Take over what stands, for each model and body."""
+
+class CommittedPath:
+    """A robot's whole motion, cut into cells."""
+
+    def __init__(self, bodies: Sequence[Body], start: Pose, pieces: Sequence[TimedPiece], cell: float) -> None: ...
+
+    @property
+    def num_cells(self) -> int: ...
+
+class PathParams:
+    """How exactly places of conflict are told."""
+
+    def __init__(self) -> None: ...
+
+    @property
+    def margin(self) -> float: ...
+
+    @margin.setter
+    def margin(self, arg: float, /) -> None: ...
+
+    @property
+    def finest(self) -> float: ...
+
+    @finest.setter
+    def finest(self, arg: float, /) -> None: ...
+
+class PathConflicts:
+    """What two robots wait for: (at, passed), rising."""
+
+    @property
+    def first(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def second(self) -> list[tuple[int, int]]: ...
+
+    @property
+    def meeting(self) -> int: ...
+
+def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
+    """
+    Where two committed motions need the same floor, whatever their times become.
+    """
+
+def paths_overlap(a: CommittedPath, from_a: int, to_a: int, b: CommittedPath, from_b: int, to_b: int) -> bool:
+    """
+    Whether bodies are in each other for some tick of each of two stretches.
     """
 
 class AssignmentCosts:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from clearway.formats import scenario_file
+from clearway.formats import source
 from clearway.formats.scenario_file import ScenarioError, parse_scenario, read_scenario
 
 GOOD = """\
@@ -329,7 +329,7 @@ def test_a_huge_file_is_refused_unread(tmp_path: Path, monkeypatch: pytest.Monke
     """A file above 64 MiB is refused by its size, before its bytes reach memory."""
     path = tmp_path / "huge.toml"
     with path.open("wb") as file:
-        file.truncate(scenario_file.LARGEST_FILE + 1)
+        file.truncate(source.LARGEST_FILE + 1)
 
     def never(_: Path) -> bytes:
         raise AssertionError("the file was read")

@@ -17,19 +17,26 @@ from clearway.formats.scenario_file import (
 from clearway.model import (
     FOUR_WHEEL_MODES,
     Battery,
+    Disturbances,
+    Draw,
     Footprint,
+    Layout,
     Limits,
     Obstacle,
     Order,
+    OrderStream,
     Pose,
     Robot,
     RobotType,
     Scenario,
+    Simulation,
     Site,
+    Surprise,
     Task,
     Visit,
     Zone,
 )
+from clearway.world.channels import site_of
 
 TEXT = """\
 format = "clearway.scenario/1"
@@ -137,7 +144,8 @@ def test_schema_describes_keys_and_shows_a_working_example() -> None:
     """An editor can complete a file from the schema, and its example is itself a scenario."""
     schema = scenario_schema()
     assert schema["additionalProperties"] is False
-    assert {"format", "site", "robots", "robot_types"} <= set(schema["required"])
+    assert {"format", "site", "robot_types"} <= set(schema["required"])
+    assert schema["anyOf"] == [{"required": ["robots"]}, {"required": ["fleets"]}]
     limits = schema["$defs"]["LimitsTable"]["properties"]
     assert limits["speed"]["exclusiveMinimum"] == 0.0
     assert "m/s" in limits["speed"]["description"]
@@ -156,7 +164,8 @@ def _toml(value: object) -> str:
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-names = st.text(min_size=1, max_size=8).filter(lambda s: s.isprintable() and s.strip() != "")
+printable = st.characters(exclude_categories=("C", "Z"), include_characters=" ")
+names = st.text(printable, min_size=1, max_size=8).filter(lambda s: s.strip() != "")
 metres = st.floats(-1e4, 1e4)
 poses = st.builds(Pose, metres, metres, st.floats(-math.tau, math.tau))
 seconds = st.floats(0.0, 1e6)
@@ -179,6 +188,59 @@ def footprints(draw: st.DrawFn) -> Footprint:
     return Footprint(tuple(Footprint.rectangle(*size).parts[0] for size in parts))
 
 
+batteries = st.builds(
+    Battery, positive, st.floats(0, 0.9), positive, st.floats(0.9, 1.0, exclude_min=True)
+)
+blocks = st.lists(st.integers(1, 3), min_size=1, max_size=2).map(tuple)
+
+
+@st.composite
+def tasks_called(draw: st.DrawFn, name: str, ids: list[str], shelves: list[str]) -> Task:
+    robot = draw(st.none() | st.sampled_from(ids))
+    if shelves and draw(st.booleans()):
+        return Task(name, (), robot, draw(st.sampled_from(shelves)))
+    loads = draw(st.sampled_from([(None,), ("pick", "drop"), ("pick", None)]))
+    return Task(name, tuple(Visit(name, draw(poses), draw(seconds), x) for x in loads), robot)
+
+
+@st.composite
+def simulations(draw: st.DrawFn, obstacles: st.SearchStrategy[Obstacle], site: Site) -> Simulation:
+    kinds = sorted({zone.kind for zone in site.zones})
+    has_shelf = bool(site.zones_of("shelf"))
+    streams = []
+    for name in draw(st.lists(names, max_size=2, unique=True)) if kinds else ():
+        fetch = has_shelf and draw(st.booleans())
+        draws = st.builds(Draw, st.sampled_from(kinds), seconds, st.sampled_from([None, "pick"]))
+        often = {"open": 1} if draw(st.booleans()) else {"rate": draw(positive)}
+        streams.append(
+            OrderStream(
+                name,
+                draws=() if fetch else (draw(draws),),
+                fetch=fetch,
+                first=draw(seconds),
+                last=draw(st.floats(1e6, 1e7, exclude_min=True)),
+                due_after=draw(st.none() | seconds),
+                priority=draw(metres),
+                **often,
+            )
+        )
+    share = st.floats(0.0, 1.0)
+    return Simulation(
+        draw(st.none() | positive),
+        tuple(streams),
+        draw(
+            st.builds(
+                Disturbances,
+                seconds,
+                st.just((1.0, 2.5)),
+                share,
+                st.floats(0.0, 1.0, exclude_min=True),
+            )
+        ),
+        tuple(draw(st.lists(st.builds(Surprise, seconds, obstacles), max_size=2))),
+    )
+
+
 @st.composite
 def scenarios(draw: st.DrawFn) -> Scenario:
     types = draw(
@@ -198,7 +260,7 @@ def scenarios(draw: st.DrawFn) -> Scenario:
             mode_switch=draw(st.floats(0, 9)),
             capacity=draw(st.integers(1, 3)),
             capabilities=frozenset(draw(st.lists(names, max_size=2))),
-            battery=draw(st.none() | st.builds(Battery, positive, st.floats(0, 0.9))),
+            battery=draw(st.none() | batteries),
             motion=draw(st.sampled_from([None, "four_wheel"])),
         )
         for name in types
@@ -209,20 +271,19 @@ def scenarios(draw: st.DrawFn) -> Scenario:
         st.builds(Obstacle, wall=st.tuples(st.tuples(metres, metres), st.just((2e4, 0.0)))),
     )
     zones = tuple(
-        Zone(name, "station", draw(boxes()), draw(poses), draw(st.none() | metres))
-        for name in draw(st.lists(names, max_size=2, unique=True))
+        Zone(name, kind, draw(boxes()), draw(poses), draw(st.none() | metres))
+        for name, kind in zip(
+            draw(st.lists(names, max_size=2, unique=True)), ("station", "shelf"), strict=False
+        )
     )
+    site = Site(draw(boxes()), tuple(draw(st.lists(obstacles, max_size=3))), zones, draw(borders))
+    if draw(st.integers(0, 4)) == 0:
+        site = site_of(Layout("bidirectional", draw(blocks), 1, draw(st.sampled_from([0.5, 1.0]))))
+    shelves = [zone.name for zone in site.zones if zone.kind == "shelf"]
     tasks = draw(st.lists(names, max_size=3, unique=True))
     orders = tuple(
         Order(
-            Task(
-                name,
-                tuple(
-                    Visit(name, draw(poses), draw(seconds), load)
-                    for load in draw(st.sampled_from([(None,), ("pick", "drop"), ("pick", None)]))
-                ),
-                draw(st.none() | st.sampled_from(ids)),
-            ),
+            draw(tasks_called(name, ids, shelves)),
             draw(seconds),
             draw(st.none() | st.floats(1e6, 1e7)),
             draw(metres),
@@ -233,15 +294,17 @@ def scenarios(draw: st.DrawFn) -> Scenario:
     values = st.one_of(st.text(max_size=5), st.integers(-9, 9), metres, st.booleans())
     return Scenario(
         name=draw(names),
-        site=Site(
-            draw(boxes()), tuple(draw(st.lists(obstacles, max_size=3))), zones, draw(borders)
-        ),
+        site=site,
         robot_types=kinds,
-        robots=tuple(Robot(i, draw(st.sampled_from(types)), draw(poses)) for i in ids),
+        robots=tuple(
+            Robot(i, draw(st.sampled_from(types)), draw(poses), energy=draw(st.floats(0, 1)))
+            for i in ids
+        ),
         orders=orders,
         system=draw(names),
         settings=draw(st.dictionaries(names.filter(lambda s: s != "name"), values, max_size=3)),
         seed=draw(st.integers(0, 2**63 - 1)),
+        simulation=draw(simulations(obstacles, site)),
     )
 
 

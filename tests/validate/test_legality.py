@@ -19,7 +19,8 @@ from clearway.model import (
     Visit,
     Zone,
 )
-from clearway.validate.legality import Finding, Legality, check_scenario
+from clearway.validate.finding import Finding
+from clearway.validate.legality import Legality, check_scenario
 
 ROOM = ((0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (0.0, 10.0))
 BLOCK = Obstacle(polygon=((18.0, 3.0), (22.0, 3.0), (22.0, 7.0), (18.0, 7.0)))

@@ -8,8 +8,6 @@ namespace clearway {
 
 namespace {
 
-constexpr double kLegalOverlap = 0.001;  // two poses may touch by this much (m)
-
 double largest_circumradius(const std::vector<Model>& models) {
   double most = 0.0;
   for (const Model& m : models) {
@@ -39,29 +37,29 @@ double leg_gap(const Model& model, int body, const Pose& from, const Pose& to, d
   return std::max(-kLegalOverlap, std::min({std::max(model.clearance, margin), here, there}));
 }
 
+Traffic empty_traffic(const std::vector<Model>& models, double margin) {
+  // A body within the box may have its reference point outside.
+  Box box = models.at(0).statics.at(0)->box();
+  const double radius = largest_circumradius(models);
+  box = {box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius};
+  return Traffic(box, radius, reach_of(models), largest_gap(models, margin));
+}
+
 Team::Team(const std::vector<Model>& models, std::vector<Agent> agents, const SearchParams& search,
            const Objective& objective, double margin)
     : models_(models),
       agents_(std::move(agents)),
-      largest_gap_(largest_gap(models, margin)),
+      margin_(margin),
       search_(search, objective),
       traffic_(empty_traffic()) {
   places_.resize(size());
   planned_.assign(size(), false);
   fine_.assign(size(), false);
-  require_gaps(margin);
-}
-
-Traffic Team::empty_traffic() const {
-  // A body within the box may have its reference point outside.
-  Box box = models_.at(0).statics.at(0)->box();
-  const double radius = largest_circumradius(models_);
-  box = {box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius};
-  return Traffic(box, radius, reach_of(models_), largest_gap_);
+  require_gaps();
 }
 
 // Gaps to keep: the clearance, or what the scenario's own poses leave where that is less.
-void Team::require_gaps(double margin) {
+void Team::require_gaps() {
   const std::size_t n = agents_.size();
   std::vector<double> wanted(n);
   struct Rest {
@@ -71,7 +69,7 @@ void Team::require_gaps(double margin) {
   std::vector<std::vector<Rest>> rests(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Model& m = model(i);
-    wanted[i] = std::max(m.clearance, margin);
+    wanted[i] = std::max(m.clearance, margin_);
     Pose from = agents_[i].start;
     if (!agents_[i].committed.empty()) {
       const TimedPiece& last = agents_[i].committed.back();
@@ -80,7 +78,7 @@ void Team::require_gaps(double margin) {
     rests[i].push_back({Frame(from), &first_body(i)});
     for (Leg& leg : agents_[i].legs) {
       const auto b = static_cast<std::size_t>(leg.body);
-      leg.required = leg_gap(m, leg.body, from, leg.goal, margin);
+      leg.required = leg_gap(m, leg.body, from, leg.goal, margin_);
       from = leg.goal;
       rests[i].push_back({Frame(from), &m.bodies[b]});
     }

@@ -32,7 +32,7 @@ struct Node {
   std::int32_t parent;
   HitList hits;       // head of the list of tracks run into (soft search)
   std::int32_t edge;  // primitive, or num_primitives + shot
-  std::int16_t leg, k, mode;
+  std::int16_t leg, k, mode, goal;
   bool arrives;        // the edge ended at the visit of leg - 1
   bool driven;         // the edge is known to be clear; until then its cost is a lower bound
   std::int8_t delays;  // departures tried before
@@ -99,6 +99,9 @@ class TourRun {
   void grow_greedy();
   void sort_anew();
   double estimate(int leg, double x, double y, double theta, double speed);
+  double estimate(int leg, std::size_t goal, double x, double y, double theta, double speed);
+  std::size_t aim(const Node& node);
+  Ticks free_for_good(const Frame& at) const;
   double priority(const Node& node);
   void expand(std::int32_t index);
   void shoot(std::int32_t index);
@@ -130,6 +133,9 @@ class TourRun {
     return headings_[static_cast<std::size_t>(n.leg)]->theta(n.k);
   }
   Frame frame(const Node& n) const {
+    if (n.leg == static_cast<int>(legs_.size())) {
+      return goals_.back()[static_cast<std::size_t>(n.goal)].frame;
+    }
     return headings_[static_cast<std::size_t>(n.leg)]->frame(n.x, n.y, n.k);
   }
 
@@ -151,11 +157,17 @@ class TourRun {
   std::vector<Shot>& shots_;
   std::vector<Shot>& tried_;
 
-  std::vector<const HeadingTable*> headings_;   // per leg, and one more after the last
-  std::vector<const GoalDistance*> distances_;  // null until a leg proves to need it
-  std::vector<std::int64_t> spent_on_;          // expansions per leg
-  std::vector<Frame> goal_frames_;
-  std::vector<double> tail_;   // estimate of all that follows a leg
+  std::vector<const HeadingTable*> headings_;  // per leg, and one more after the last
+  struct Goal {
+    Pose pose;
+    Frame frame;
+    const GoalDistance* distance;  // null until its leg proves to need it
+    int number;                    // 0: the leg's own, then the others
+    Ticks free = 0;                // for good; of the last leg's
+  };
+  std::vector<std::vector<Goal>> goals_;  // per leg
+  std::vector<std::int64_t> spent_on_;    // expansions per leg
+  std::vector<double> tail_;              // estimate of all that follows a leg
   std::vector<double> floor_;  // priority that a leg's states cannot fall below (time only)
   std::vector<Step> primitive_steps_;
   std::int32_t found_ = kNone;
@@ -173,28 +185,43 @@ void TourRun::prepare() {
     if (i == n) break;
     heading = legs_[i].goal.theta;
     const int l = static_cast<int>(i);
-    distances_.push_back(s_.goal_distance(statics(l), body(l).inradius(), legs_[i].goal, false));
-    goal_frames_.emplace_back(legs_[i].goal);
+    goals_.emplace_back();
+    const auto add = [&](const Pose& pose, int number) {
+      const GoalDistance* known = s_.goal_distance(statics(l), body(l).inradius(), pose, false);
+      goals_.back().push_back({pose, Frame(pose), known, number});
+    };
+    add(legs_[i].goal, 0);
+    if (i + 1 < n) continue;
+    for (std::size_t j = 0; j < legs_[i].others.size(); ++j) {
+      add(legs_[i].others[j], static_cast<int>(j) + 1);
+    }
+  }
+  if (q_.traffic && !q_.penalty) {
+    std::vector<Goal>& rests = goals_.back();
+    for (Goal& goal : rests) goal.free = free_for_good(goal.frame);
+    // Where somebody rests for ever nobody else can.
+    std::erase_if(rests, [](const Goal& goal) { return goal.free >= kNever; });
+    hopeless_ = rests.empty();
+    if (hopeless_) return;
+    earliest_rest_ = kNever;
+    for (const Goal& goal : rests) earliest_rest_ = std::min(earliest_rest_, goal.free);
   }
   spent_on_.assign(n, 0);
   look_ahead();
   for (const Primitive& p : table_.primitives) {
     primitive_steps_.push_back({p.mode, p.twist, p.duration});
   }
-  if (!q_.traffic || q_.penalty) return;
-  const Leg& last = legs_.back();
-  const Frame rest(last.goal);
+}
+
+// From when on the resting body may stand at a place for ever; kNever: somebody else does.
+Ticks TourRun::free_for_good(const Frame& at) const {
   Ticks t = q_.ready;
-  while (true) {
+  while (t < kNever) {
     Ticks met = t;
-    if (meet_.safe_until(resting(), rest, t, kNobody, &met) >= kNever) break;
-    t = meet_.next_free(resting(), rest, met, kNobody);
-    if (t >= kNever) {
-      hopeless_ = true;  // somebody rests there for ever
-      return;
-    }
+    if (meet_.safe_until(resting(), at, t, kNobody, &met) >= kNever) break;
+    t = meet_.next_free(resting(), at, met, kNobody);
   }
-  earliest_rest_ = t;
+  return t;
 }
 
 void TourRun::look_ahead() {
@@ -216,7 +243,9 @@ void TourRun::look_ahead() {
 // The straight distance has led nowhere for as long as it takes to know the one round obstacles.
 void TourRun::learn_distance(int leg) {
   const auto l = static_cast<std::size_t>(leg);
-  distances_[l] = s_.goal_distance(statics(leg), body(leg).inradius(), legs_[l].goal, true);
+  for (Goal& goal : goals_[l]) {
+    goal.distance = s_.goal_distance(statics(leg), body(leg).inradius(), goal.pose, true);
+  }
   look_ahead();
   sort_anew();
 }
@@ -237,18 +266,28 @@ void TourRun::sort_anew() {
   std::make_heap(open_.begin(), open_.end());
 }
 
+// To the nearest of the leg's goals.
 double TourRun::estimate(int leg, double x, double y, double theta, double speed) {
-  const auto l = static_cast<std::size_t>(leg);
-  const Frame& goal = goal_frames_[l];
-  const Point local = goal.to_local({x, y});
+  const std::size_t count = goals_[static_cast<std::size_t>(leg)].size();
+  double least = estimate(leg, 0, x, y, theta, speed);
+  for (std::size_t i = 1; i < count; ++i) {
+    least = std::min(least, estimate(leg, i, x, y, theta, speed));
+  }
+  return least;
+}
+
+double TourRun::estimate(int leg, std::size_t number, double x, double y, double theta,
+                         double speed) {
+  const Goal& goal = goals_[static_cast<std::size_t>(leg)][number];
+  const Point local = goal.frame.to_local({x, y});
   double metres = length(local);
-  if (distances_[l]) {
-    const float distance = (*distances_[l])(x, y);
+  if (goal.distance) {
+    const float distance = (*goal.distance)(x, y);
     if (distance >= GoalDistance::kUnreachable) return std::numeric_limits<double>::infinity();
     metres =
         std::max(metres, static_cast<double>(distance) - 0.5 * goal_cell(body(leg).inradius()));
   }
-  const double exact = connect_table_(local.x, local.y, theta - legs_[l].goal.theta);
+  const double exact = connect_table_(local.x, local.y, theta - goal.pose.theta);
   if (!s_.objective_.time) return std::max(metres, exact);
   return std::max(table_.least_ticks(metres, speed), exact - table_.head_start(speed));
 }
@@ -353,7 +392,10 @@ bool TourRun::launch(Node& child) const {
     }
   } else {
     int track = 0;
-    if (!meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later)) {
+    const bool meets =
+        meet_.conflict(moving, start, edge, departure, parent.hits, &track, parent.end, &later);
+    if (meets && q_.met) ++(*q_.met)[static_cast<std::size_t>(track)];
+    if (!meets) {
       if (!child.arrives ||
           may_stay(moving, end, arrival, service, last, last ? kNone : parent.hits, &later)) {
         child.driven = true;
@@ -595,26 +637,47 @@ void TourRun::expand(std::int32_t index) {
   }
 }
 
+// Which of the leg's goals to shoot for: where the robot can come to rest soonest.
+std::size_t TourRun::aim(const Node& node) {
+  const std::vector<Goal>& goals = goals_[static_cast<std::size_t>(node.leg)];
+  if (goals.size() == 1) return 0;
+  const double unit = s_.objective_.time ? 1.0 : kTicksPerSecond / table_.top_speed;
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < goals.size(); ++i) {
+    const double ticks =
+        unit * estimate(node.leg, i, node.x, node.y, theta(node), table_.speed(node.mode));
+    const double rest = std::max(ticks, static_cast<double>(goals[i].free - node.t));
+    if (rest < least) {
+      least = rest;
+      best = i;
+    }
+  }
+  return best;
+}
+
 void TourRun::shoot(std::int32_t index) {
   const Node node = nodes_[static_cast<std::size_t>(index)];
-  const Leg& leg = legs_[static_cast<std::size_t>(node.leg)];
-  double distance = length(Point{node.x, node.y} - Point{leg.goal.x, leg.goal.y});
-  if (const GoalDistance* known = distances_[static_cast<std::size_t>(node.leg)]) {
-    distance = std::max(distance, static_cast<double>((*known)(node.x, node.y)));
+  const std::size_t aimed = aim(node);
+  const Goal& goal = goals_[static_cast<std::size_t>(node.leg)][aimed];
+  double distance = length(Point{node.x, node.y} - Point{goal.pose.x, goal.pose.y});
+  if (goal.distance) {
+    distance = std::max(distance, static_cast<double>((*goal.distance)(node.x, node.y)));
   }
   since_shot_ += 1.0;
   if (since_shot_ < 1.0 + distance && !node.arrives) return;  // a new leg tries at once
   since_shot_ = 0.0;
   const Pose from{node.x, node.y, theta(node)};
   const Ticks leaving = set_out(node);
-  connect(table_, s_.objective_, from, leg.goal, s_.params_.shot_words, tried_, node.mode);
+  connect(table_, s_.objective_, from, goal.pose, s_.params_.shot_words, tried_, node.mode);
   for (Shot& shot : tried_) {
     Node child{};
-    child.x = leg.goal.x;
-    child.y = leg.goal.y;
+    child.x = goal.pose.x;
+    child.y = goal.pose.y;
+    child.goal = static_cast<std::int16_t>(aimed);
     child.leg = static_cast<std::int16_t>(node.leg + 1);
     child.k = static_cast<std::int16_t>(
-        headings_[static_cast<std::size_t>(child.leg)]->index(leg.goal.theta));
+        headings_[static_cast<std::size_t>(child.leg)]->index(goal.pose.theta));
     child.parent = index;
     child.hits = node.hits;
     child.arrives = true;
@@ -710,7 +773,7 @@ TourResult TourRun::run(std::int64_t limit, Budget& budget) {
     expand(index);
     if (spent >= next_greed_) grow_greedy();
     const auto leg = static_cast<std::size_t>(node.leg);
-    if (!distances_[leg] &&
+    if (!goals_[leg].front().distance &&
         ++spent_on_[leg] > worth_a_distance(statics(node.leg), standing.inradius())) {
       learn_distance(node.leg);
     }
@@ -752,7 +815,10 @@ TourResult TourRun::extract(std::int32_t goal) {
       t += step.duration;
     }
     if (node.arrives) {
-      at = legs_[static_cast<std::size_t>(leg)].goal;
+      const Goal& reached =
+          goals_[static_cast<std::size_t>(leg)][static_cast<std::size_t>(node.goal)];
+      at = reached.pose;
+      result.goal = reached.number;
       result.arrival = t;
       stand(t + patience(node));
       result.stops.push_back({leg, t, t + legs_[static_cast<std::size_t>(leg)].service});

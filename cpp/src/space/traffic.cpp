@@ -49,11 +49,11 @@ void join(std::vector<TimedPiece>& pieces, const TimedPiece& next) {
 }
 
 Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
-             Ticks gone)
-    : bodies_(bodies), pieces_(std::move(pieces)), gone_(gone) {
-  if (!pieces_.empty() && pieces_.front().begin > 0) {
+             Ticks gone, Ticks from)
+    : bodies_(bodies), pieces_(std::move(pieces)), gone_(gone), from_(from) {
+  if (!pieces_.empty() && pieces_.front().begin > from) {
     const TimedPiece& first = pieces_.front();
-    pieces_.insert(pieces_.begin(), {0, first.begin, first.start, {}, -1, first.body});
+    pieces_.insert(pieces_.begin(), {from, first.begin, first.start, {}, -1, first.body});
   }
   while (!pieces_.empty() && pieces_.back().mode < 0 && pieces_.size() > 1 &&
          pieces_.back().body == pieces_[pieces_.size() - 2].body) {
@@ -74,7 +74,7 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
       rates_.emplace_back();
     }
     changes_shape_ = changes_shape_ || p.body != pieces_.front().body;
-    while (static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
+    while (from + static_cast<Ticks>(slot_.size()) * kSlot < p.end) {
       slot_.push_back(static_cast<std::int32_t>(i));
     }
   }
@@ -87,7 +87,7 @@ Track::Track(const std::vector<Body>* bodies, const Pose& start, std::vector<Tim
   };
   if (changes_shape_) centre_speed_ = speed_;
   for (std::size_t i = 0; i < slot_.size(); ++i) {
-    centres_.push_back(bound(at(static_cast<double>(i) * kSlot)));
+    centres_.push_back(bound(at(from + static_cast<double>(i) * kSlot)));
   }
   rest_ = bound(at(kNever));
 }
@@ -100,7 +100,7 @@ Track::Sight Track::at(double tick) const {
             kNever,
             gone_};
   }
-  const double slot = std::max(0.0, tick) / kSlot;
+  const double slot = std::max(0.0, tick - from_) / kSlot;
   auto i = static_cast<std::size_t>(slot_[static_cast<std::size_t>(slot)]);
   while (tick >= pieces_[i].end) ++i;
   const TimedPiece& p = pieces_[i];
@@ -113,17 +113,17 @@ Track::Sight Track::at(double tick) const {
 
 double Track::may_be_near(double from, double to, Point p, double apart) const {
   const double reach = apart + 0.5 * kSlot * centre_speed_;
-  auto slot = static_cast<std::size_t>(std::max(0.0, from) / kSlot + 0.5);
+  auto slot = static_cast<std::size_t>(std::max(0.0, from - from_) / kSlot + 0.5);
   for (; slot < centres_.size(); ++slot) {
     const Circle& c = centres_[slot];
     const double dx = c.x - p.x, dy = c.y - p.y, r = reach + c.r;
-    const double begin = (static_cast<double>(slot) - 0.5) * kSlot;
+    const double begin = from_ + (static_cast<double>(slot) - 0.5) * kSlot;
     if (begin > to) return begin;
     if (dx * dx + dy * dy <= r * r) return std::max(from, begin);
   }
   const double dx = rest_.x - p.x, dy = rest_.y - p.y, r = reach + rest_.r;
   return dx * dx + dy * dy <= r * r
-             ? std::max(from, (static_cast<double>(centres_.size()) - 0.5) * kSlot)
+             ? std::max(from, from_ + (static_cast<double>(centres_.size()) - 0.5) * kSlot)
              : kNever;
 }
 

@@ -8,15 +8,21 @@ from clearway.assign.exact import ExactAssigner
 from clearway.assign.flight import Coefficients, FlightParams
 from clearway.assign.ga import Ga, GaParams
 from clearway.assign.insertion import InsertionLocalSearch, InsertionParams
+from clearway.assign.look_ahead import LookAhead, LookAheadParams
 from clearway.assign.memetic import MemeticApsga, MemeticParams
 from clearway.assign.native import native_costs, values
+from clearway.assign.nearest_idle import NearestIdle
+from clearway.assign.nearest_order import NearestOrder, NearestOrderParams
+from clearway.assign.oldest_order import OldestOrder
 from clearway.assign.parking import park
 from clearway.assign.psga import Psga, PsgaParams
 from clearway.assign.pso import Pso, PsoParams
 from clearway.assign.random_assignment import RandomAssigner
 from clearway.assign.ruin_recreate import RuinRecreate, RuinRecreateParams
+from clearway.assign.shelf_cycle import ShelfParams
 from clearway.assign.swarm import SwarmParams, SwarmTrace
 from clearway.assign.tours import tours_of
+from clearway.assign.yard_bound import makespan_bound
 
 __all__ = [
     "ELITIST",
@@ -33,8 +39,14 @@ __all__ = [
     "GaParams",
     "InsertionLocalSearch",
     "InsertionParams",
+    "LookAhead",
+    "LookAheadParams",
     "MemeticApsga",
     "MemeticParams",
+    "NearestIdle",
+    "NearestOrder",
+    "NearestOrderParams",
+    "OldestOrder",
     "Psga",
     "PsgaParams",
     "Pso",
@@ -42,9 +54,11 @@ __all__ = [
     "RandomAssigner",
     "RuinRecreate",
     "RuinRecreateParams",
+    "ShelfParams",
     "SwarmParams",
     "SwarmTrace",
     "build",
+    "makespan_bound",
     "native_costs",
     "park",
     "tours_of",

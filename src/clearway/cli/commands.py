@@ -306,6 +306,13 @@ def run_study(arguments: argparse.Namespace) -> int:
     return run_study(arguments)
 
 
+def run_simulate(arguments: argparse.Namespace) -> int:
+    """Run a scenario file through time."""
+    from clearway.cli.simulate_command import run_simulate
+
+    return run_simulate(arguments)
+
+
 COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "bench": run_bench,
     "check": run_check,
@@ -313,6 +320,7 @@ COMMANDS: dict[str, Callable[[argparse.Namespace], int]] = {
     "explain": run_explain,
     "generate": run_generate,
     "schema": run_schema,
+    "simulate": run_simulate,
     "solve": run_solve,
     "study": run_study,
     "validate": run_validate,

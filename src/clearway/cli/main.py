@@ -77,6 +77,13 @@ def _parser() -> argparse.ArgumentParser:
     solve = commands.add_parser("solve", parents=[talk, search], help="assign and plan a scenario")
     solve.add_argument("scenario", metavar="SCENARIO.toml")
     solve.add_argument("--out", required=True, metavar="RUN/", help="folder for plan and report")
+    simulate = commands.add_parser(
+        "simulate", parents=[talk, search], help="run a scenario through time: orders that arrive"
+    )
+    simulate.add_argument("scenario", metavar="SCENARIO.toml")
+    simulate.add_argument(
+        "--out", required=True, metavar="RUN/", help="folder for trace and report"
+    )
     demo = commands.add_parser("demo", parents=[talk, search], help="a warehouse with 8 robots")
     demo.add_argument("--out", default="demo-run", metavar="RUN/", help="default: demo-run")
     check = commands.add_parser(

@@ -2,6 +2,7 @@
 
 import sys
 import time
+from collections.abc import Callable
 from types import TracebackType
 
 
@@ -62,6 +63,33 @@ class ProgressLine:
             seconds = time.monotonic() - self._begin
             told += f", {_clock(seconds * (total - done) / fresh)} left"
         self.say(told)
+
+    def running(self, until: float | None) -> Callable[[float, int, int], None]:
+        """Return what shows how far a simulation is, and the time that the rest takes at this pace.
+
+        Parameters
+        ----------
+        until
+            Second at which it ends; ``None``: when all orders are done.
+        """
+        told_at = time.monotonic()
+
+        def tell(second: float, done: int, left: int) -> None:
+            nonlocal told_at
+            now = time.monotonic()
+            if now - told_at < 0.2:
+                return
+            told_at = now
+            part = done / (done + left) if until is None and done + left else 0.0
+            if until is not None:
+                part = second / until
+            text = f"{second:,.0f} s simulated, {done} orders done, {left} open"
+            if part > 0.0:
+                spent = now - self._begin
+                text += f", {_clock(spent * (1.0 - part) / part)} left"
+            self.say(text)
+
+        return tell
 
     def note(self, text: str) -> None:
         """Leave a line above, whatever stderr is."""

@@ -41,6 +41,7 @@ def plan_once(
     def planned(problem: Problem, share: Budget) -> Plan:
         return plan_in_order(system.plan, problem, share, seed, progress)
 
+    _refuse(_fetching(scenario))
     kept = _kept(scenario)
     if kept is not None:
         problem = posed(kept)
@@ -70,6 +71,15 @@ def _kept(scenario: Scenario) -> dict[str, tuple[Visit, ...]] | None:
             return None
         tours[order.task.robot] = order.visits
     return tours
+
+
+def _fetching(scenario: Scenario) -> tuple[str, ...]:
+    fetching = [order.task.id for order in scenario.orders if order.task.fetches is not None]
+    mend = "give it visits, or run a system that moves shelves through time"
+    return tuple(
+        f"task {name} fetches a shelf, which cannot be planned once; {mend}"
+        for name in fetching[:1]
+    )
 
 
 def _refuse(reasons: tuple[str, ...]) -> None:

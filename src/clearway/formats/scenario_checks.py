@@ -1,32 +1,42 @@
 """Checks of a scenario file that need more than one of its tables."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from clearway.formats.atomic import ABSENT
+from clearway.formats.order_checks import OrderCheck, find_load_problems
 from clearway.formats.scenario_error import Problem, closest, key_path
-from clearway.formats.scenario_models import (
-    RobotTable,
-    ScenarioTable,
-    SiteTable,
-    TaskTable,
-    VisitTable,
-)
-from clearway.model import LOAD_CHANGE
+from clearway.formats.scenario_models import ScenarioTable
+from clearway.formats.scenario_site import ObstacleTable
+from clearway.formats.scenario_work import TaskTable
+from clearway.model import Scenario
 from clearway.model.robot import FOUR_WHEEL_MODES
 from clearway.protocols import find_circle
 
 
-def find_problems(table: ScenarioTable) -> list[Problem]:
-    """Return everything that is wrong between the tables; empty if they agree."""
+def find_problems(table: ScenarioTable, scenario: Scenario) -> list[Problem]:
+    """Return everything that is wrong between the tables; empty if they agree.
+
+    ``scenario`` is what they make, without the tasks.
+    """
+    surprises = table.simulation.surprises
+    find_order_problems = OrderCheck(scenario)
     return [
         *_repeated("robots", [robot.id for robot in table.robots], "id"),
         *_repeated("tasks", [task.id for task in table.tasks], "id"),
         *_repeated("site.zones", [zone.name for zone in table.site.zones], "name"),
+        *_repeated("simulation.streams", [s.name for s in table.simulation.streams], "name"),
         *_type_names(table),
-        *_blocks(table.site, table),
+        *_blocks("site.obstacles", table.site.obstacles, table),
+        *_blocks("simulation.surprises", surprises, table),
         *_fleet(table),
-        *_work(table),
+        *_fleet_names(table),
+        *(
+            problem
+            for i, task in enumerate(table.tasks)
+            for problem in find_order_problems(task, f"tasks[{i}]")
+        ),
         *_order_of_tasks(table.tasks),
+        *_streams(table, scenario),
     ]
 
 
@@ -47,12 +57,14 @@ def _type_names(table: ScenarioTable) -> Iterator[Problem]:
             yield Problem(key, name, "is not usable as the name of a robot type", mend)
 
 
-def _blocks(site: SiteTable, table: ScenarioTable) -> Iterator[Problem]:
+def _blocks(
+    where: str, obstacles: Sequence[ObstacleTable], table: ScenarioTable
+) -> Iterator[Problem]:
     known = [f"{name}{state}" for name in table.robot_types for state in ("", ":loaded")]
-    for i, obstacle in enumerate(site.obstacles):
+    for i, obstacle in enumerate(obstacles):
         for j, name in enumerate(obstacle.blocks):
             if name not in known:
-                key = f"site.obstacles[{i}].blocks[{j}]"
+                key = f"{where}[{i}].blocks[{j}]"
                 yield Problem(key, name, "names no robot type", closest(name, known))
 
 
@@ -75,24 +87,40 @@ def _fleet(table: ScenarioTable) -> Iterator[Problem]:
             )
 
 
-def _work(table: ScenarioTable) -> Iterator[Problem]:
-    robots = {robot.id: robot for robot in table.robots if robot.type in table.robot_types}
-    stations = [zone.name for zone in table.site.zones if zone.pose is not None]
-    for i, task in enumerate(table.tasks):
-        where = f"tasks[{i}]"
-        if task.robot is not None and task.robot not in {robot.id for robot in table.robots}:
-            mend = closest(task.robot, robots)
-            yield Problem(f"{where}.robot", task.robot, "unknown robot", mend)
-            continue
-        for j, visit in enumerate(task.stops()):
-            at = where if task.visits is None else f"{where}.visits[{j}]"
-            if visit.station is not None and visit.station not in stations:
-                mend = closest(visit.station, stations)
-                yield Problem(
-                    f"{at}.station", visit.station, "no zone with a pose has this name", mend
-                )
-            yield from _together(visit, task, at, robots)
-        yield from _able(table, task, where, robots)
+def _fleet_names(table: ScenarioTable) -> Iterator[Problem]:
+    """Check that fleets have types, and that the ids of their robots are nobody else's."""
+    ids = {robot.id: f"robots[{i}]" for i, robot in enumerate(table.robots)}
+    for i, fleet in enumerate(table.fleets):
+        if fleet.type not in table.robot_types:
+            mend = closest(fleet.type, table.robot_types)
+            yield Problem(f"fleets[{i}].type", fleet.type, "unknown robot type", mend)
+        its = [f"{fleet.name}-{k + 1}" for k in range(fleet.count)]
+        if taken := next((name for name in its if name in ids), None):
+            what = f"makes a robot {taken}, which is already the id of {ids[taken]}"
+            yield Problem(f"fleets[{i}].name", fleet.name, what, "give each its own name")
+        ids.update(dict.fromkeys(its, f"a robot of fleets[{i}]"))
+
+
+def _streams(table: ScenarioTable, scenario: Scenario) -> Iterator[Problem]:
+    """Check that what streams draw from is there, and that their loads can be taken."""
+    has_pose = {zone.kind for zone in scenario.site.zones if zone.pose is not None}
+    shelves = len(scenario.site.zones_of("shelf"))
+    for i, stream in enumerate(table.simulation.streams):
+        where = f"simulation.streams[{i}]"
+        visits = stream.visits or []
+        for j, draw in enumerate(visits):
+            if draw.kind not in has_pose:
+                what = "no zone of this kind has a pose"
+                mend = closest(draw.kind, has_pose)
+                yield Problem(f"{where}.visits[{j}].kind", draw.kind, what, mend)
+        if stream.fetch and (stream.open or 1) > shelves:
+            what = f"asks for more shelves than the site's {shelves}"
+            key, value = ("open", stream.open) if stream.open else ("fetch", True)
+            yield Problem(f"{where}.{key}", value, what, "add zones of kind shelf, or lower open")
+        names = [f"{where}.visits[{j}]" for j in range(len(visits))]
+        loads = [draw.load for draw in visits]
+        kinds = list(scenario.robot_types.values())
+        yield from find_load_problems(loads, names, kinds, "any robot")
 
 
 def _order_of_tasks(tasks: list[TaskTable]) -> Iterator[Problem]:
@@ -114,55 +142,6 @@ def _order_of_tasks(tasks: list[TaskTable]) -> Iterator[Problem]:
         first = tasks[circle[0]]
         what = f"tasks wait for each other: {told}"
         yield Problem(f"tasks[{circle[0]}].after", first.after, what, "drop one of these")
-
-
-def _together(
-    visit: VisitTable, task: TaskTable, at: str, robots: dict[str, RobotTable]
-) -> Iterator[Problem]:
-    for k, other in enumerate(visit.together):
-        key = f"{at}.together[{k}]"
-        if other not in robots:
-            yield Problem(key, other, "unknown robot", closest(other, robots))
-        elif other == task.robot or other in visit.together[:k]:
-            what = "a robot does not wait for itself" if other == task.robot else "named twice"
-            yield Problem(key, other, what, "name each other robot once")
-
-
-def _able(
-    table: ScenarioTable, task: TaskTable, where: str, robots: dict[str, RobotTable]
-) -> Iterator[Problem]:
-    """Check that the loads can be taken in this order, by a robot that may do the task."""
-    stops = task.stops()
-    names = [where if task.visits is None else f"{where}.visits[{j}]" for j in range(len(stops))]
-    carried = peak = peak_at = 0
-    for j, visit in enumerate(stops):
-        carried += LOAD_CHANGE[visit.load]
-        if carried < 0:
-            what = "drops a load that this task has not picked up"
-            yield Problem(
-                f"{names[j]}.load", visit.load, what, "add a visit with load = 'pick' before"
-            )
-            return
-        if carried > peak:
-            peak, peak_at = carried, j
-    candidates = [robots[task.robot]] if task.robot in robots else list(robots.values())
-    whose = f"robot {task.robot}" if task.robot else "any robot"
-    kinds = [table.robot_types[name] for name in sorted({robot.type for robot in candidates})]
-    for j, visit in enumerate(stops):
-        if visit.needs is None:
-            continue
-        kinds = [kind for kind in kinds if visit.needs in kind.capabilities]
-        if not kinds:
-            had = {name for kind in table.robot_types.values() for name in kind.capabilities}
-            mend = f"add it to capabilities of a robot type; {closest(visit.needs, had)}"
-            what = f"is not a capability of {whose} that could do the rest of the task"
-            yield Problem(f"{names[j]}.needs", visit.needs, what, mend)
-            return
-    if kinds and peak > max(kind.capacity for kind in kinds):
-        most = max(kind.capacity for kind in kinds)
-        what = f"is load {peak} on board where {whose} carries at most {most}"
-        mend = "drop a load before, or raise capacity of the robot type"
-        yield Problem(f"{names[peak_at]}.load", "pick", what, mend)
 
 
 def find_non_numbers(document: dict[str, object]) -> list[Problem]:

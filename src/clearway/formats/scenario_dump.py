@@ -5,7 +5,20 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from clearway.formats.scenario_error import key_path
-from clearway.model import Footprint, Obstacle, Order, Robot, RobotType, Scenario, Site, Visit, Zone
+from clearway.model import (
+    Disturbances,
+    Footprint,
+    Obstacle,
+    Order,
+    OrderStream,
+    Robot,
+    RobotType,
+    Scenario,
+    Simulation,
+    Site,
+    Visit,
+    Zone,
+)
 
 FORMAT = "clearway.scenario/1"
 
@@ -13,12 +26,14 @@ FORMAT = "clearway.scenario/1"
 def dump_scenario(scenario: Scenario, comment: str = "") -> str:
     """Return the scenario as TOML text that reads back as an equal scenario.
 
-    Stations are written as the poses they stood for. ``comment`` goes on top.
+    Stations are written as the poses they stood for, fleets as their robots, and orders from
+    files as tasks. ``comment`` goes on top.
 
     Raises
     ------
     ValueError
-        If a setting is not a string, number or boolean, or is called ``name``.
+        If a setting is not a string, number or boolean, or is called ``name``; if a site is
+        not what its layout makes.
     """
     lines = [f"# {line}".rstrip() for line in comment.splitlines()]
     lines += _keys({"format": FORMAT, "name": scenario.name, "seed": scenario.seed})
@@ -28,6 +43,7 @@ def dump_scenario(scenario: Scenario, comment: str = "") -> str:
     for name, kind in scenario.robot_types.items():
         lines += ["", f"[{key_path(('robot_types', name))}]", *_keys(_robot_type(kind))]
     lines += ["", "[system]", *_keys({"name": scenario.system} | _settings(scenario.settings))]
+    lines += _simulation(scenario.simulation)
     return "\n".join(lines) + "\n"
 
 
@@ -69,14 +85,18 @@ def _settings(settings: Mapping[str, Any]) -> dict[str, Any]:
 
 def _robot(robot: Robot) -> dict[str, Any]:
     moving = _given(start_speed=robot.start_speed, start_mode=robot.start_mode)
-    return {"id": robot.id, "type": robot.type, "start": robot.start, **moving}
+    energy = {} if robot.energy == 1.0 else {"energy": robot.energy}
+    return {"id": robot.id, "type": robot.type, "start": robot.start, **moving, **energy}
 
 
 def _order(order: Order) -> dict[str, Any]:
     visits = [_visit(visit) for visit in order.task.visits]
+    fetches = {} if order.task.fetches is None else {"fetches": order.task.fetches}
+    several = {"visits": visits} if visits else {}
     return {
         "id": order.task.id,
-        **(visits[0] if len(visits) == 1 else {"visits": visits}),
+        **fetches,
+        **(visits[0] if len(visits) == 1 else several),
         **_given(robot=order.task.robot, release=order.release),
         **({} if order.due is None else {"due": order.due}),
         **_given(priority=order.priority, after=order.after),
@@ -91,6 +111,13 @@ def _visit(visit: Visit) -> dict[str, Any]:
 
 
 def _site(site: Site) -> list[str]:
+    if site.layout is not None:
+        from clearway.world.channels import site_of
+
+        if site != site_of(site.layout):
+            mend = "drop the layout, or what was changed since"
+            raise ValueError(f"the site is not what its layout makes; {mend}")
+        return _keys({"layout": vars(site.layout)})
     lines = [*_rows("bounds", site.bounds), *_keys({"border": site.border})]
     lines += _rows("obstacles", map(_obstacle, site.obstacles))
     return lines + _rows("zones", map(_zone, site.zones))
@@ -134,4 +161,28 @@ def _robot_type(kind: RobotType) -> dict[str, Any]:
         "capacity": kind.capacity,
         **_given(capabilities=tuple(sorted(kind.capabilities))),
         **({} if battery is None else {"battery": vars(battery)}),
+    }
+
+
+def _simulation(simulation: Simulation) -> list[str]:
+    """Return the lines of what happens; none where nothing does."""
+    disturbances = simulation.disturbances
+    lines = _keys(_given(until=simulation.until))
+    lines += _rows("streams", map(_stream, simulation.streams))
+    if disturbances != Disturbances():
+        lines += _keys({"disturbances": vars(disturbances)})
+    surprises = ({"at": s.at, **_obstacle(s.obstacle)} for s in simulation.surprises)
+    lines += _rows("surprises", surprises)
+    return ["", "[simulation]", *lines] if lines else []
+
+
+def _stream(stream: OrderStream) -> dict[str, Any]:
+    draws = tuple({"kind": d.kind, **_given(service=d.service, load=d.load)} for d in stream.draws)
+    due = {} if stream.due_after is None else {"due_after": stream.due_after}
+    return {
+        "name": stream.name,
+        **_given(rate=stream.rate, open=stream.open, visits=draws, first=stream.first),
+        **({"fetch": True} if stream.fetch else {}),
+        **_given(last=stream.last, priority=stream.priority),
+        **due,
     }

@@ -58,8 +58,8 @@ class Misfit(ValueError):
         self.what, self.mend, self.value, self.path = what, mend, value, path
 
 
-class ScenarioError(FormatError):
-    """A scenario file that cannot be used.
+class ProblemsError(FormatError):
+    """A file that cannot be used, and all that is wrong with it.
 
     ``file``, ``key``, ``value`` and ``mend`` are those of the first problem; ``problems``
     holds all that were found.
@@ -75,3 +75,11 @@ class ScenarioError(FormatError):
         more = len(self.problems) - 1
         tail = f" (and {more} more problem{'s' if more > 1 else ''})" if more else ""
         return f"{self.file}: {self.problems[0]}{tail}".replace("\n", " ")
+
+
+class ScenarioError(ProblemsError):
+    """A scenario file that cannot be used."""
+
+
+class OrderFileError(ProblemsError):
+    """An order file that cannot be used; keys name the line, and the column or the key."""

@@ -1,7 +1,8 @@
 """Trajectories: pieces of path, their timing, and the visits made on the way."""
 
 import math
-from dataclasses import dataclass
+from bisect import bisect_left, bisect_right
+from dataclasses import dataclass, replace
 
 from clearway.model.pose import Pose, wrap
 
@@ -50,6 +51,14 @@ class Piece:
     def end(self) -> Pose:
         """Pose where it ends."""
         return self.at(1.0)
+
+    def part(self, begin: float, end: float) -> "Piece":
+        """Return what lies between two progresses in [0, 1]; it keeps id and mode."""
+        if (begin, end) == (0.0, 1.0):
+            return self
+        a, b, c = self.twist
+        share = end - begin
+        return replace(self, start=self.at(begin), twist=(share * a, share * b, share * c))
 
     def heading_at(self, progress: float) -> float:
         """Return the heading (rad) at ``progress``."""
@@ -117,3 +126,23 @@ class Trajectory:
     def distance(self) -> float:
         """Length driven (m)."""
         return sum(piece.length for piece in self.pieces)
+
+    def at(self, tick: int) -> Pose:
+        """Return the pose at a tick."""
+        index = bisect_right(self.timing, tick, key=lambda span: span[0]) - 1
+        if index < 0:
+            return self.start
+        piece, (first, end) = self.pieces[index], self.timing[index]
+        return piece.at(min(1.0, (tick - first) / (end - first)))
+
+    def part(self, begin: int, end: int) -> "Trajectory":
+        """Return what happens between two ticks, without its stops; pieces are cut there."""
+        low = bisect_right(self.timing, begin, key=lambda span: span[1])
+        high = bisect_left(self.timing, end, key=lambda span: span[0]) if end > begin else low
+        pieces, timing = [], []
+        for piece, (first, last) in zip(self.pieces[low:high], self.timing[low:high], strict=True):
+            since, until = max(first, begin), min(last, end)
+            lasts = last - first
+            pieces.append(piece.part((since - first) / lasts, (until - first) / lasts))
+            timing.append((since, until))
+        return Trajectory(self.robot, self.at(begin), tuple(pieces), tuple(timing))

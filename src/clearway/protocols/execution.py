@@ -24,9 +24,13 @@ class Conflicts(Protocol):
     """Finds where two committed motions need the same floor, whatever their times become."""
 
     def __call__(
-        self, one: Commitment, other: Commitment
+        self, one: Commitment, other: Commitment, done: tuple[int, int] = (0, 0)
     ) -> tuple[Sequence[Precedence], Sequence[Precedence]]:
-        """Return what ``one`` must wait for, and what ``other`` must, each by rising ``at``."""
+        """Return what ``one`` must wait for, and what ``other`` must, each by rising ``at``.
+
+        ``done`` are the ticks of either up to which it has been driven; what lies before them
+        is not looked at.
+        """
         ...
 
 

@@ -40,6 +40,16 @@ class TripPlanner(Protocol):
         """Return what a robot is committed to; standing at its start before its first trip."""
         ...
 
+    @property
+    def changed(self) -> Sequence[Commitment]:
+        """What the last `plan` has changed of other robots' commitments: times only."""
+        ...
+
+    @property
+    def counters(self) -> Mapping[str, int]:
+        """What planning has come to so far: ``expansions``, and what else the planner counts."""
+        ...
+
     def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         ...

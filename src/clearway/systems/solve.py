@@ -12,7 +12,8 @@ from clearway.model import Plan, PlanRecord, Scenario
 from clearway.protocols import Budget, Progress
 from clearway.systems.choose import choose_system
 from clearway.validate import Violation, separations, validate_plan
-from clearway.validate.legality import Finding, check_scenario
+from clearway.validate.finding import Finding
+from clearway.validate.legality import check_scenario
 
 Clock = Callable[[], float]
 

@@ -2,51 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 import shapely
 
 from clearway.model import Pose, Scenario
+from clearway.validate.endurance import check_endurance
+from clearway.validate.finding import Finding, Severity
 from clearway.validate.floors import OUTSIDE, OVERLAP, Floors, Spot
 from clearway.validate.reachability import Shut, find_reachable
 from clearway.validate.suitability import able_robots, load_states, visit_key
 from clearway.world.shapes import Shape, ShapeIndex, body_shape, obstacle_shape
-
-Severity = Literal["error", "warning"]
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One thing that is wrong or doubtful about a scenario.
-
-    Parameters
-    ----------
-    kind
-        ``start_in_obstacle``, ``start_outside``, ``starts_overlap``, ``visit_in_obstacle``,
-        ``visit_outside``, ``zone_in_obstacle``, ``zone_outside``, ``no_room``,
-        ``rests_overlap``, ``no_robot`` or ``unreachable``.
-    key
-        Key path in the scenario file.
-    robots
-        Ids of the robots concerned.
-    place
-        Where to look (m).
-    depth
-        How deep bodies overlap or how far they are outside (m).
-    text
-        A sentence for people, with the mend.
-    proof
-        Whether it proves that the scenario has no plan.
-    """
-
-    kind: str
-    severity: Severity
-    key: str
-    text: str
-    robots: tuple[str, ...] = ()
-    place: tuple[float, float] | None = None
-    depth: float | None = None
-    proof: bool = False
 
 
 @dataclass(frozen=True)
@@ -78,7 +43,10 @@ class Legality:
 
 
 def check_scenario(scenario: Scenario) -> Legality:
-    """Check starts, visits, parking, room, final rests and ways, with geometry of its own."""
+    """Check starts, visits, parking, room, final rests, ways and what a run through time needs.
+
+    All geometry is the judge's own.
+    """
     floors = Floors(scenario)
     clearances: dict[str, float] = {}
     spots = _visit_spots(scenario, floors)
@@ -96,6 +64,7 @@ def check_scenario(scenario: Scenario) -> Legality:
     misplaced = {f.robots[0] for f in findings if f.kind in ("start_in_obstacle", "start_outside")}
     ways = [(i, way) for i, way in sorted(shut.items()) if not misplaced.issuperset(way.robots)]
     findings += [_unreachable(scenario, i, way) for i, way in ways]
+    findings += check_endurance(scenario)
     return Legality(tuple(findings), clearances, reachable)
 
 
@@ -222,7 +191,7 @@ def _check_visits(
 ) -> Iterator[Finding]:
     for i, order in enumerate(scenario.orders):
         task = order.task
-        if (i, 0) not in spots:
+        if not able_robots(scenario, task):
             text = f"no robot has the capabilities and the capacity for task {task.id}; add one"
             yield Finding("no_robot", "error", f"tasks[{i}]", text, proof=True)
             continue
@@ -246,6 +215,8 @@ def _check_rests(scenario: Scenario) -> Iterator[Finding]:
     bodies: list[Shape] = []
     owner: list[int] = []
     for i, order in enumerate(scenario.orders):
+        if not order.task.visits:
+            continue
         last, loaded = order.task.visits[-1], load_states(order.task)[-1][1]
         for name in sorted({robot.type for robot in able_robots(scenario, order.task)}):
             bodies.append(body_shape(scenario.robot_types[name].shape(loaded), last.pose))

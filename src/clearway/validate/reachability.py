@@ -23,7 +23,7 @@ class Shut:
     proof: bool
 
 
-class _Ways:
+class Ways:
     """Components of free space by robot type and load state, made when first asked for."""
 
     def __init__(self, scenario: Scenario) -> None:
@@ -31,6 +31,7 @@ class _Ways:
         self._made: dict[tuple[str, bool], BodyReach] = {}
 
     def of(self, kind: RobotType, loaded: bool) -> BodyReach:
+        """Return where bodies of a type may travel."""
         if (kind.name, loaded) not in self._made:
             reach = BodyReach(self._scenario.site, kind.name, loaded, kind.shape(loaded))
             self._made[kind.name, loaded] = reach
@@ -43,20 +44,32 @@ def find_reachable(
     """Return the task ids each robot can reach, and by order index the tasks that none can.
 
     A robot reaches a task if the largest disc in its body is not shut off from any visit,
-    unloaded on the way to the first and then with the task's own loads. Components of the
-    unloaded body hold for whatever else it carries, as long as a load makes it no smaller.
-    Types that are ``unfit`` for an order (its index, the type's name), because they cannot
-    stand at one of its poses, do not count.
+    unloaded on the way to the first and then with the task's own loads; one that fetches, if
+    it is not shut off from the shelf. Components of the unloaded body hold for whatever else it
+    carries, as long as a load makes it no smaller. Types that are ``unfit`` for an order (its
+    index, the type's name), because they cannot stand at one of its poses, do not count.
     """
-    ways = _Ways(scenario)
+    ways = Ways(scenario)
     at_start = {
         robot.id: ways.of(scenario.type_of(robot), False).component(robot.start)
         for robot in scenario.robots
     }
     reached: dict[str, set[str]] = {robot.id: set() for robot in scenario.robots}
     shut: dict[int, Shut] = {}
+    shelves = {zone.name: zone.pose for zone in scenario.site.zones_of("shelf")}
     for i, order in enumerate(scenario.orders):
         task = order.task
+        if not task.visits:
+            pose = shelves.get(task.fetches or "")
+            fit = able_robots(scenario, task)
+            if pose is not None:
+                names = {robot.type for robot in fit}
+                kinds = {name: scenario.robot_types[name] for name in names}
+                here = {name: ways.of(k, False).component(pose) for name, k in kinds.items()}
+                fit = tuple(r for r in fit if at_start[r.id] == here[r.type] != 0)
+            for robot in fit:
+                reached[robot.id].add(task.id)
+            continue
         able = [r for r in able_robots(scenario, task) if (i, r.type) not in unfit]
         kinds = {robot.type: scenario.type_of(robot) for robot in able}
         first = {
@@ -79,7 +92,7 @@ def find_reachable(
     return {name: frozenset(tasks) for name, tasks in reached.items()}, shut
 
 
-def _stuck_at(task: Task, kind: RobotType, ways: _Ways) -> int | None:
+def _stuck_at(task: Task, kind: RobotType, ways: Ways) -> int | None:
     """Return the first visit that is shut off from the one before it, if any."""
     visits, states = task.visits, load_states(task)
     for j in range(1, len(visits)):

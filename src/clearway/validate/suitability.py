@@ -16,7 +16,7 @@ def load_states(task: Task) -> list[tuple[bool, bool]]:
 def able_robots(scenario: Scenario, task: Task) -> tuple[Robot, ...]:
     """Return the robots that have the capabilities and the capacity, and are not shut out."""
     needs = {visit.needs for visit in task.visits if visit.needs is not None}
-    carried = peak = 0
+    carried = peak = 0 if task.fetches is None else 1
     for visit in task.visits:
         carried += LOAD_CHANGE[visit.load]
         peak = max(peak, carried)

@@ -76,7 +76,7 @@ def _step(course: _Course, event: Mapping[str, Any]) -> list[str]:
 def _visit(course: _Course, event: Mapping[str, Any]) -> list[str]:
     robot = event["robot"]
     if event["state"] == "left":
-        course.made += course.at == robot
+        course.made += 1
         course.at = None
         return []
     course.at = robot

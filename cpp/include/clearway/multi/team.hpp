@@ -22,8 +22,13 @@ struct Agent {
   Ticks bound = 0;  // no motion whatever arrives at the last leg before
 };
 
+constexpr double kLegalOverlap = 0.001;  // two poses may touch by this much (m)
+
 // Gap to keep from obstacles on a leg: the clearance, or what its ends leave where that is less.
 double leg_gap(const Model& model, int body, const Pose& from, const Pose& to, double margin);
+
+// No traffic yet, where robots of these models drive; `margin`: gap kept at least (m).
+Traffic empty_traffic(const std::vector<Model>& models, double margin);
 
 class Team {
  public:
@@ -60,7 +65,7 @@ class Team {
   const std::vector<double>& required(std::size_t i) const { return required_[i]; }
   const Traffic& traffic() const { return traffic_; }
   // No traffic yet, on the same site.
-  Traffic empty_traffic() const;
+  Traffic empty_traffic() const { return clearway::empty_traffic(models_, margin_); }
 
   // A finer table is used for this robot from now on, or no longer.
   void refine(std::size_t i, bool fine) { fine_[i] = fine; }
@@ -79,13 +84,13 @@ class Team {
   void release(std::size_t i);
 
  private:
-  void require_gaps(double margin);
+  void require_gaps();
   std::shared_ptr<const Track> make_track(std::size_t i, std::vector<TimedPiece> pieces,
                                           Ticks gone) const;
 
   const std::vector<Model>& models_;
   std::vector<Agent> agents_;
-  double largest_gap_;
+  double margin_;
   TourSearch search_;
   Traffic traffic_;
   std::vector<std::vector<double>> required_;

@@ -32,6 +32,7 @@ struct Leg {
   int body = 0;
   double required = 0.0;  // gap to keep from obstacles on the way
   Ticks not_before = 0;   // the service begins no sooner: who comes before then waits
+  std::vector<Pose> others = {};  // goals that will do as well; of the last leg only
 };
 
 struct SearchParams {
@@ -66,6 +67,7 @@ struct TourQuery {
                                                   // negative: it does not move away
   double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
   std::vector<Expanded>* trace = nullptr;                  // filled in the order of expansion
+  std::vector<std::int32_t>* met = nullptr;                // how often each track was in the way
 };
 
 struct TourStop {
@@ -80,6 +82,7 @@ struct TourResult {
   std::vector<TourStop> stops;
   std::vector<int> hits;  // tracks that a soft path runs into
   Ticks arrival = 0;      // at the last pose, wherever it waits for its service
+  int goal = 0;           // which of the last leg's goals that is; 0: not one of `others`
   double cost = 0.0;      // of the objective
   bool is_full = false;   // stopped since it would have kept more than `most_nodes`
 };

@@ -49,8 +49,9 @@ struct Motion {
 // One robot's motion, gap-free from its first tick; afterwards it stands until it is `gone`.
 class Track {
  public:
+  // `from`: nobody asks what it does before.
   Track(const std::vector<Body>* bodies, const Pose& start, std::vector<TimedPiece> pieces,
-        Ticks gone = kNever);
+        Ticks gone = kNever, Ticks from = 0);
 
   struct Sight : Motion {
     double since, until;  // it moves like this at least from here to here
@@ -63,7 +64,7 @@ class Track {
 
   const std::vector<TimedPiece>& pieces() const { return pieces_; }
   // From here on nothing about it changes any more.
-  Ticks settled() const { return pieces_.empty() ? 0 : pieces_.back().end; }
+  Ticks settled() const { return pieces_.empty() ? from_ : pieces_.back().end; }
   Ticks gone() const { return gone_; }
   double speed() const { return speed_; }                // of its fastest body point, m per tick
   double centre_speed() const { return centre_speed_; }  // of its bounding circle's centre
@@ -71,7 +72,7 @@ class Track {
   // A circle that holds the body during [begin, end], without trigonometry.
   Circle around(double begin, double end) const {
     const double middle = 0.5 * (begin + end);
-    const auto nearest = static_cast<std::size_t>(std::max(0.0, middle) / kSlot + 0.5);
+    const auto nearest = static_cast<std::size_t>(std::max(0.0, middle - from_) / kSlot + 0.5);
     Circle c = nearest < centres_.size() ? centres_[nearest] : rest_;
     if (begin < settled() || nearest < centres_.size())
       c.r += 0.5 * (end - begin + kSlot) * centre_speed_;
@@ -85,10 +86,10 @@ class Track {
   std::vector<TimedPiece> pieces_;
   std::vector<Rate> rates_;         // of each piece
   std::vector<Frame> frames_;       // at each piece's start, and the last one's end
-  std::vector<std::int32_t> slot_;  // first piece of each slot of time
+  std::vector<std::int32_t> slot_;  // first piece of each slot of time, counted from `from_`
   std::vector<Circle> centres_;     // bounding circle at the start of each slot
   Circle rest_;                     // and for good
-  Ticks gone_;
+  Ticks gone_, from_;
   double speed_ = 0.0, centre_speed_ = 0.0;
   double circumradius_ = 0.0;
   bool changes_shape_ = false;
@@ -162,6 +163,7 @@ class Traffic {
     return clearway::clear_after(track(id), body, at, from, required, limit);
   }
   const Track& track(int id) const { return *tracks_[static_cast<std::size_t>(id)]; }
+  std::shared_ptr<const Track> share(int id) const { return tracks_[static_cast<std::size_t>(id)]; }
 
  private:
   std::size_t tile(double x, double y) const;

@@ -1,0 +1,160 @@
+"""The lifelong loop: what a fleet tells comes in, what it shall do goes out."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from clearway.model import TICKS_PER_SECOND, Commitment, Robot
+from clearway.protocols import (
+    Board,
+    Choice,
+    Decision,
+    Dispatcher,
+    Observation,
+    Refusal,
+    RobotView,
+    Told,
+    TripEnded,
+    TripPlanner,
+)
+
+
+@dataclass(frozen=True)
+class CoordinatorParams:
+    """Patience of the loop.
+
+    Parameters
+    ----------
+    retry
+        Ticks after which a refused robot is tried again, doubled with each refusal.
+    most_retry
+        Ticks between two tries at the most.
+    most_effort
+        By how much the effort for a robot that is refused again and again may grow.
+    """
+
+    retry: int = TICKS_PER_SECOND
+    most_retry: int = 8 * TICKS_PER_SECOND
+    most_effort: int = 16
+
+
+class Coordinator:
+    """Holds open orders and everybody's commitments; asks a dispatcher and a planner of trips.
+
+    It knows no clock but the ticks it is told, and cannot tell which fleet it steers.
+
+    Parameters
+    ----------
+    cpu
+        Source of the CPU seconds told with each decision; absent: none are told.
+    """
+
+    def __init__(
+        self,
+        robots: Sequence[Robot],
+        dispatch: Dispatcher,
+        trips: TripPlanner,
+        params: CoordinatorParams | None = None,
+        cpu: Callable[[], float] | None = None,
+    ) -> None:
+        self._dispatch, self._trips = dispatch, trips
+        self._params = params or CoordinatorParams()
+        self._cpu = cpu or (lambda: 0.0)
+        self._board = Board(0, {r.id: RobotView(r.id, r.type, r.start) for r in robots})
+        for robot in robots:
+            self._see(robot.id, energy=robot.energy, place=trips.commitment(robot.id).rest)
+        self._completes: dict[str, bool] = {}
+        self._refused: dict[str, tuple[int, int]] = {}  # robot: times in a row, tick to try again
+
+    @property
+    def open_orders(self) -> int:
+        """Number of orders that are not done yet."""
+        return len(self._board.open)
+
+    def decide(self, seen: Observation) -> Decision:
+        """Return what the fleet shall do now."""
+        board = self._board
+        board.now = seen.now
+        changed: dict[str, Commitment] = {}
+        failed: dict[str, str] = {}
+        if seen.trajectories is not None:
+            self._trips.retime(seen.trajectories)
+        for order in seen.arrived:
+            board.open[order.task.id] = order
+        for robot, level in seen.energy.items():
+            self._see(robot, energy=level)
+        done = self._end_trips(seen)
+        board.arrived = tuple(order.task.id for order in seen.arrived)
+        for obstacle in seen.found:
+            for robot in self._trips.block(obstacle, seen.now):
+                changed[robot] = commitment = self._trips.commitment(robot)
+                trip = board.robots[robot].trip
+                if trip is not None and commitment.trip is None:
+                    if trip.order is not None:
+                        board.taken.pop(trip.order, None)
+                    self._see(robot, trip=None, idle_since=seen.now, ready=seen.now)
+        told: list[Told] = []
+        for choice in self._dispatch(board):
+            outcome = self._try(choice)
+            if outcome is None:
+                continue
+            told.append(outcome)
+            if isinstance(outcome.outcome, Commitment):
+                changed[choice.trip.robot] = outcome.outcome
+                for other in self._trips.changed:
+                    changed[other.robot] = other
+            elif outcome.outcome.for_good and choice.trip.order is not None:
+                failed[choice.trip.order] = outcome.outcome.reason
+                board.open.pop(choice.trip.order, None)
+        board.ended = board.arrived = ()
+        waits = [again for _, again in self._refused.values()]
+        wake = max(min(waits), seen.now + 1) if waits else None
+        return Decision(changed, tuple(told), tuple(done), failed, wake)
+
+    def _try(self, choice: Choice) -> Told | None:
+        """Return how a choice went; ``None`` where it is too soon to try it again."""
+        board, trip = self._board, choice.trip
+        times, again = self._refused.get(trip.robot, (0, 0))
+        if board.now < again:
+            return None
+        begin = self._cpu()
+        effort = min(2**times, self._params.most_effort)
+        outcome = self._trips.plan(trip, board.now, effort)
+        spent = self._cpu() - begin
+        if isinstance(outcome, Refusal):
+            pause = min(self._params.retry * 2**times, self._params.most_retry)
+            self._refused[trip.robot] = (times + 1, board.now + pause)
+            return Told(choice, outcome, spent)
+        self._refused.pop(trip.robot, None)
+        self._completes[trip.robot] = choice.completes
+        self._see(trip.robot, trip=trip, ready=outcome.served)
+        if trip.order is not None:
+            board.taken[trip.order] = trip.robot
+        return Told(choice, outcome, spent)
+
+    def _end_trips(self, seen: Observation) -> list[str]:
+        board, done, ended = self._board, [], []
+        for robot in seen.served:
+            trip = board.robots[robot].trip
+            if trip is None:
+                continue
+            ended.append(TripEnded(robot, trip))
+            commitment = self._trips.commitment(robot)
+            self._see(
+                robot,
+                trip=None,
+                pose=trip.visits[-1].pose,
+                place=trip.goals[-1] if not trip.rests else commitment.rest,
+                carries=trip.carries,
+                ready=seen.now,
+                idle_since=seen.now,
+            )
+            if trip.order is not None and self._completes[robot]:
+                done.append(trip.order)
+                board.open.pop(trip.order, None)
+                board.taken.pop(trip.order, None)
+        board.ended = tuple(ended)
+        return done
+
+    def _see(self, robot: str, **change: object) -> None:
+        view = self._board.robots[robot]
+        self._board.robots[robot] = replace(view, **change)  # type: ignore[arg-type]

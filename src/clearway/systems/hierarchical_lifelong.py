@@ -1,0 +1,46 @@
+"""System A with orders that keep arriving: four-wheel-steering robots, or any with true shapes."""
+
+from dataclasses import asdict
+
+from clearway.assign import NearestOrder, OldestOrder
+from clearway.coordinate import Lifelong
+from clearway.execute import BodyConflicts, RightOfWay
+from clearway.model import Problem, Scenario
+from clearway.plan import TailTrips
+from clearway.plan.prioritised import unplannable
+from clearway.protocols import Dispatcher, Executor
+from clearway.systems.hierarchical import HierarchicalSettings
+
+
+def hierarchical_lifelong(settings: HierarchicalSettings) -> Lifelong:
+    """Return system A for orders as they come.
+
+    Of its settings ``dispatch`` counts; the others are for planning at once.
+    """
+
+    def dispatch(scenario: Scenario) -> Dispatcher:
+        return (OldestOrder if settings.dispatch == "oldest" else NearestOrder)(scenario)
+
+    def execute(scenario: Scenario) -> Executor:
+        return RightOfWay(BodyConflicts({r.id: scenario.type_of(r) for r in scenario.robots}))
+
+    return Lifelong(
+        name="hierarchical",
+        dispatch=dispatch,
+        trips=TailTrips,
+        execute=execute,
+        unsupported=_unsupported,
+        parameters=asdict(settings),
+    )
+
+
+def _unsupported(scenario: Scenario) -> tuple[str, ...]:
+    """Return what in a scenario system A cannot take when orders arrive."""
+    tours = {robot.id: () for robot in scenario.robots}
+    reasons = unplannable(Problem(scenario.site, scenario.robot_types, scenario.robots, tours))
+    fetching = [order.task.id for order in scenario.orders if order.task.fetches is not None]
+    fetching += [stream.name for stream in scenario.simulation.streams if stream.fetch]
+    if fetching:
+        what = f"{fetching[0]}: fetches a shelf; system A carries none, give it visits instead"
+        reasons = (*reasons, what)
+    return reasons

@@ -1,0 +1,167 @@
+"""From a scenario to what happens in it: orders that arrive, until they are done."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+
+from clearway.coordinate import Coordinator, Lifelong, Unsupported
+from clearway.model import Scenario, Trace
+from clearway.protocols import Budget, TripPlanner
+from clearway.simulate.arrivals import Arrivals
+from clearway.simulate.disturbed import Disturbed
+from clearway.simulate.events import Event, Record
+from clearway.simulate.fleet import SimulatedFleet, Tell
+from clearway.simulate.motion import RobotMotion
+from clearway.simulate.on_time import OnTime
+from clearway.systems.choose import choose_lifelong
+from clearway.systems.solve import IllegalScenario
+from clearway.validate.legality import check_scenario
+
+Clock = Callable[[], float]
+Recorder = Callable[[Trace], Record]
+
+
+def _nowhere(header: Trace) -> Record:
+    return lambda event: None
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """What has happened, and how it ended.
+
+    ``status`` is ``done``, ``ended`` (its time was up with orders open or to come), ``stuck``
+    (orders are open, but nothing happens any more), ``stopped`` (the budget was spent), or
+    ``interrupted``.
+    """
+
+    trace: Trace
+    status: str
+    counters: Mapping[str, int] = field(default_factory=dict)
+
+    def __bool__(self) -> bool:
+        return self.status in ("done", "ended")
+
+
+def simulate(
+    scenario: Scenario,
+    *,
+    system: Lifelong | None = None,
+    seed: int | None = None,
+    budget: Budget | None = None,
+    record: Recorder = _nowhere,
+    tell: Tell = lambda second, done, left: None,
+    clock: Clock | None = None,
+) -> Simulated:
+    """Run a scenario through time.
+
+    Parameters
+    ----------
+    system
+        Parts to use; absent: those that the scenario names.
+    seed
+        Absent: the scenario's own.
+    budget
+        Seconds of ``clock``, or expansions of the planner, after which it stops.
+    record
+        Called with the trace's header, events empty; returns what takes each event as it
+        happens.
+    tell
+        Called with the second, orders done and orders open.
+    clock
+        Source of CPU seconds for decisions and the budget; absent: none are told.
+
+    Raises
+    ------
+    IllegalScenario
+        If a start or visit pose cannot be, or no robot can reach a task.
+    ValueError
+        If the system or a setting is unknown, or a part cannot take a feature.
+    """
+    legality = check_scenario(scenario)
+    if not legality:
+        raise IllegalScenario(legality.errors)
+    return run_through_time(
+        scenario, system, seed=seed, budget=budget, record=record, tell=tell, clock=clock
+    )
+
+
+def run_through_time(
+    scenario: Scenario,
+    system: Lifelong | None = None,
+    *,
+    seed: int | None = None,
+    budget: Budget | None = None,
+    record: Recorder = _nowhere,
+    tell: Tell = lambda second, done, left: None,
+    clock: Clock | None = None,
+) -> Simulated:
+    """Run a scenario that is known to be legal; see `simulate`."""
+    chosen = system or choose_lifelong(scenario)
+    reasons = chosen.unsupported(scenario)
+    if reasons:
+        raise Unsupported("; ".join(reasons))
+    seed = scenario.seed if seed is None else seed
+    header = _header(scenario, chosen, seed)
+    told: list[Event] = []
+    write = record(header)
+
+    def keep(event: Event) -> None:
+        told.append(event)
+        write(event)
+
+    trips = chosen.trips(scenario)
+    fleet = SimulatedFleet(
+        scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
+    )
+    coordinator = Coordinator(scenario.robots, chosen.dispatch(scenario), trips, cpu=clock)
+    is_spent = _is_spent(budget or Budget(), clock, trips)
+    status = None
+    try:
+        while (seen := fleet.observe()) is not None:
+            fleet.execute(coordinator.decide(seen))
+            if is_spent():
+                status = "stopped"
+                break
+    except KeyboardInterrupt:
+        status = "interrupted"
+    status = fleet.close(status)
+    trace = replace(header, events=tuple(told), is_whole=True)
+    return Simulated(trace, status, dict(trips.counters))
+
+
+def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
+    disturbances = scenario.simulation.disturbances
+    if not disturbances:
+        return OnTime(scenario.robots)
+    for robot in scenario.robots:
+        if scenario.type_of(robot).limits.has_ramps:
+            what = f"robot type {robot.type}: has limits on acceleration"
+            raise Unsupported(f"{what}, which robots that stop at random do not keep; remove them")
+    return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
+
+
+def _is_spent(budget: Budget, clock: Clock | None, trips: TripPlanner) -> Callable[[], bool]:
+    end = None if budget.seconds is None or clock is None else clock() + budget.seconds
+    most = budget.expansions
+
+    def is_spent() -> bool:
+        if most is not None and trips.counters["expansions"] >= most:
+            return True
+        return end is not None and clock is not None and clock() > end
+
+    return is_spent
+
+
+def _header(scenario: Scenario, system: Lifelong, seed: int) -> Trace:
+    return Trace(
+        scenario=scenario.name,
+        system=scenario.system,
+        seed=seed,
+        site=scenario.site,
+        robot_types=dict(scenario.robot_types),
+        robots=scenario.robots,
+        events=(),
+        is_whole=False,
+        parameters=dict(system.parameters),
+        version=version("clearway"),
+    )
