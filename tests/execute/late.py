@@ -100,6 +100,21 @@ class Late:
         return overlaps(paths, types)
 
 
+def from_now(trajectory, now):
+    """A trajectory without what is before ``now``, which becomes tick 0."""
+    pieces, timing, start = [], [], trajectory.start
+    for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
+        if end <= now:
+            start = piece.end
+            continue
+        share = max(0, now - begin) / (end - begin)
+        twist = tuple((1.0 - share) * value for value in piece.twist)
+        pieces.append(replace(piece, start=piece.at(share), twist=twist))
+        timing.append((max(now, begin) - now, end - now))
+    start = pieces[0].start if pieces else start
+    return Trajectory(trajectory.robot, start, tuple(pieces), tuple(timing))
+
+
 def overlaps(paths, types):
     """What the judge finds of bodies in each other on trajectories; ``types`` by robot."""
     points = [p for path in paths.values() for p in (path.start, path.final_pose)]

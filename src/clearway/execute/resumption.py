@@ -1,5 +1,6 @@
 """How far a robot has come on the new motion that replaces the one it was on."""
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -46,28 +47,27 @@ class Resumption:
 
     def at(self, tick: int) -> int | None:
         """Return the new tick for one up to which the robot may go: in a wait, the end of it."""
-        for old, new in self.pairs:
-            if tick <= old.begin:
-                return new.begin
-            if tick < old.end:
-                return max(self.progress, new.end - (old.end - tick))
-        return None
+        k = bisect_right(self.pairs, tick, key=_old_end)
+        if k == len(self.pairs):
+            return None
+        old, new = self.pairs[k]
+        return max(self.progress, new.end - (old.end - max(tick, old.begin)))
 
     def passed(self, tick: int) -> int | None:
         """Return the new tick for one that the robot will have passed; ``None`` within a wait.
 
         All that is not common any more is passed where what is common ends.
         """
+        k = bisect_left(self.pairs, tick, key=_old_end)
         before, after = self.was, self.progress
-        for old, new in self.pairs:
-            if tick <= before:
-                return after
-            if tick <= old.begin:
-                return None
-            if tick <= old.end:
-                return new.end - (old.end - tick)
-            before, after = old.end, new.end
-        return after if tick <= before or not self.is_retimed else None
+        if k > 0:
+            before, after = (stretch.end for stretch in self.pairs[k - 1])
+        if tick <= before:
+            return after
+        if k == len(self.pairs):
+            return None if self.is_retimed else after
+        old, new = self.pairs[k]
+        return new.end - (old.end - tick) if tick > old.begin else None
 
 
 def carried_over(
@@ -127,6 +127,10 @@ def resume(robot: str, old: Course, new: Course, progress: int, now: int) -> Res
 def _busy(course: Course, tick: int) -> list[Stretch]:
     """Return what a robot still does from a tick on, waits left out."""
     return [each for each in course.stretches[course.index(tick) :] if not each.is_wait]
+
+
+def _old_end(pair: tuple[Stretch, Stretch]) -> int:
+    return pair[0].end
 
 
 def _times(stretch: Stretch) -> tuple[int, int]:
