@@ -37,7 +37,7 @@ class Late:
         self.now += STEP
         for robot, course in self.courses.items():
             granted = self.executor.grant(robot)
-            if self.rng.random() < self.stops:
+            if self.now >= self.stopped[robot] and self.rng.random() < self.stops:
                 self.stopped[robot] = self.now + self.rng.randrange(1000, 15000)
             if self.now >= self.stopped[robot]:
                 before = self.progress[robot]

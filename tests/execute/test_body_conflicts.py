@@ -8,7 +8,6 @@ from tests.oracles.forbidden_ticks import allowed, touching
 
 from clearway.execute import BodyConflicts
 from clearway.model import Commitment, Footprint, Piece, Pose, Stop, Trajectory, Trip, Visit
-from clearway.protocols import Precedence
 
 CARRIER = replace(CART, name="carrier", loaded_footprint=Footprint.rectangle(1.2, 2.8, rear=0.3))
 
@@ -139,4 +138,3 @@ def test_reserves_that_meet_are_seen():
     assert not conflicts.overlap(first, (0, 5000), second, (6000, 10_100))
     assert conflicts.overlap(first, (0, 5000), second, (6000, 10_300))
     assert conflicts.overlap(first, (5000, 5000), second, (11_000, 11_000))
-    assert isinstance(conflicts(first, second)[1][0], Precedence)

@@ -72,18 +72,18 @@ def test_services_under_way_go_on():
 def test_new_times_are_those_of_a_plan():
     """Told anew while one is late, times of true shapes meet nobody, and all arrive by them."""
     told = 0
-    for seed in range(6):
+    for seed in range(4):
         one, other, types, _ = encounter(seed)
         conflicts = BodyConflicts(types)
         fleet = Late({"a": one, "b": other}, RightOfWay(conflicts), seed, stops=0.05, lost=0.0)
         while not fleet.is_done:
             fleet.step()
             assert fleet.executor.overlapping(conflicts.overlap) == ()
-            if fleet.now % 3000 == 0:
+            if fleet.now % 4000 == 0:
                 before = {r: c.trajectory for r, c in fleet.commitments.items()}
                 fleet.retime()
                 after = {r: c.trajectory for r, c in fleet.commitments.items()}
                 told += before != after
                 assert overlaps({r: from_now(t, fleet.now) for r, t in after.items()}, types) == []
         assert fleet.overlaps(types) == []
-    assert told > 6
+    assert told > 4

@@ -53,21 +53,19 @@ class Resumption:
         old, new = self.pairs[k]
         return max(self.progress, new.end - (old.end - max(tick, old.begin)))
 
-    def passed(self, tick: int) -> int | None:
-        """Return the new tick for one that the robot will have passed; ``None`` within a wait.
+    def passed(self, tick: int) -> int:
+        """Return the new tick for one that the robot will have passed: in a wait, its begin.
 
-        All that is not common any more is passed where what is common ends.
+        While it waits the robot is in nobody's way but from where it came to stand, so whoever
+        is in conflict with it there waits for the end of the wait. All that is not common any
+        more is passed where what is common ends.
         """
         k = bisect_left(self.pairs, tick, key=_old_end)
-        before, after = self.was, self.progress
-        if k > 0:
-            before, after = (stretch.end for stretch in self.pairs[k - 1])
-        if tick <= before:
+        after = self.pairs[k - 1][1].end if k > 0 else self.progress
+        if k == len(self.pairs) or tick <= self.pairs[k][0].begin:
             return after
-        if k == len(self.pairs):
-            return None if self.is_retimed else after
         old, new = self.pairs[k]
-        return new.end - (old.end - tick) if tick > old.begin else None
+        return max(after, new.end - (old.end - tick))
 
 
 def carried_over(
@@ -75,7 +73,7 @@ def carried_over(
 ) -> tuple[Precedence, ...] | None:
     """Return what a robot waits for in new ticks, as far as both paths are what they were.
 
-    ``None`` where some tick has no like or the new times do not keep the order of passage.
+    ``None`` where the new times do not keep the order of passage.
 
     Parameters
     ----------
@@ -88,7 +86,7 @@ def carried_over(
         if at is None and mine and not mine.is_retimed:
             continue
         passed = its.passed(step.passed) if its else step.passed
-        if at is None or passed is None or passed > at:
+        if at is None or passed > at:
             return None
         kept.append(Precedence(at, step.other, passed))
     return tuple(kept)
