@@ -8,7 +8,7 @@ from tests.execute.late import Late, from_now, overlaps
 from tests.execute.rides import encounter
 
 from clearway.execute import BodyConflicts, CellConflicts, RightOfWay
-from clearway.model import Stop
+from clearway.model import Commitment, Piece, Stop, Trajectory
 
 GRID = hall(6, 6)
 # Serves for half a second at (2, 2), then waits for a second.
@@ -67,6 +67,26 @@ def test_services_under_way_go_on():
     east = late(3000, east=2300).projected(3000)["east"]
     assert east.stops == (Stop(0, 2700, 3200),)
     assert east.timing[0] == (3500, 4500)
+
+
+def test_what_new_times_put_off_is_not_granted_any_more():
+    """West's only piece is granted to (3, 2), where it waits for north, which does not set out.
+
+    North is to leave that cell at 23,000 at last, so west, to drive through, begins at 22,000.
+    That is later than the look-ahead, so its way to (3, 2) is others' until then.
+    """
+    piece = Piece(0, None, GRID.centre((5, 2)), (-5.0, 0.0, 0.0))
+    west = Commitment("west", Trajectory("west", piece.start, (piece,), ((4500, 9500),)))
+    north = driven(GRID, "north", [(3, y) for y in range(5)], [1000, 2000, 3000, 4000])
+    ledger = RightOfWay(CellConflicts(GRID), 1500)
+    ledger.commit({"north": north, "west": west}, 0)
+    ledger.report("west", 4400)
+    assert ledger.grant("west") == 5500
+    ledger.report("north", 1000)
+    expected = ledger.projected(20_000)
+    assert expected["west"].timing == ((22_000, 27_000),)
+    ledger.commit({robot: Commitment(robot, path) for robot, path in expected.items()}, 20_000)
+    assert ledger.reserve("west") == (20_000, 22_000)
 
 
 def test_new_times_are_those_of_a_plan():

@@ -98,7 +98,9 @@ class RightOfWay:
                 entries[robot] = _Entry(commitment, course, known.progress, known.granted)
                 continue
             resumed[robot] = there = resume(robot, known.course, course, known.progress, now)
-            granted = max(there.granted(known.granted), course.stands_until(there.progress))
+            # Nobody is ahead of new times, so what they put off is granted when it is time.
+            granted = min(there.granted(known.granted), now + self.look_ahead)
+            granted = max(granted, course.stands_until(there.progress))
             entries[robot] = _Entry(commitment, course, there.progress, granted)
         changed = [r for r in commitments if r in resumed or r not in self._entries]
         stairs = {robot: dict(others) for robot, others in self._stairs.items()}
