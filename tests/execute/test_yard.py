@@ -55,3 +55,31 @@ def test_without_the_order_of_passage_they_collide(yard):
     while not fleet.is_done:
         fleet.step()
     assert fleet.overlaps(types) != []
+
+
+def test_what_is_left_out_on_purpose_is_caught(yard):
+    """Granted as far as they may, two robots that know of no conflict have reserves that meet.
+
+    Of the pairs in which somebody waits, five are tried.
+    """
+    commitments, types = yard
+    whole = BodyConflicts(types)
+    names = sorted(commitments)
+    found = [
+        (one, other, steps)
+        for k, one in enumerate(names)
+        for other in names[k + 1 :]
+        for steps in (whole(commitments[one], commitments[other])[0],)
+        if steps
+    ]
+    for one, other, steps in found[:: len(found) // 5][:5]:
+        ledger = RightOfWay(lambda *_: ((), ()), look_ahead=100_000)
+        ledger.commit({name: commitments[name] for name in (one, other)}, 0)
+        assert ledger.grant(one) > steps[0].at
+        assert ledger.grant(other) >= steps[0].passed
+        assert ledger.overlapping(whole.overlap) == ((one, other),)
+        kept = RightOfWay(whole, look_ahead=100_000)
+        kept.commit({name: commitments[name] for name in (one, other)}, 0)
+        kept.grant(one)
+        kept.grant(other)
+        assert kept.overlapping(whole.overlap) == ()
