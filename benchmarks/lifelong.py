@@ -21,8 +21,8 @@ from clearway.plan.tail_trips import TailTrips, TailTripsParams
 from clearway.protocols import Refusal
 from clearway.world.lifelong import lifelong_warehouse
 
-RETRY = 3000  # ticks after which a refused robot asks again
-TRIES = 4  # at each effort
+RETRY, MOST_RETRY = 1000, 8000  # ticks after which a refused robot asks again, doubled each time
+MOST_EFFORT = 16  # doubled each time, too
 AISLE_PENALTY = 30.0  # m for each other robot that has picks to make in the same aisle
 
 
@@ -114,13 +114,14 @@ def run(scenario: Scenario, params: TailTripsParams, choose: Chooser) -> tuple[T
             )
             trip = Trip(robot, visits, "order", None, (job.pick.name, job.station.name), bays)
             clock = time.process_time()
-            answer = trips.plan(trip, now, 1 + tries[robot] // TRIES)
+            answer = trips.plan(trip, now, min(2 ** tries[robot], MOST_EFFORT))
             tally.cpu.append(time.process_time() - clock)
+            pause = min(RETRY * 2 ** tries[robot], MOST_RETRY)
             tries[robot] += 1
             if isinstance(answer, Refusal):
                 tally.refused += 1
                 tally.expansions.append(answer.expansions)
-                asks[robot] = now + RETRY
+                asks[robot] = now + pause
                 continue
             tally.longest = max(tally.longest, now - since[robot])
             del wanted[robot]
