@@ -50,7 +50,7 @@ LaneWay LaneSearch::operator()(const std::uint8_t* moves, const LaneQuery& query
   start.cell = query.start;
   start.arrive = query.now;
   for (int id = holds_->first(start.cell); id >= 0; id = holds_->hold(id).next)
-    if (holds_->hold(id).robot != query.robot && holds_->hold(id).begin <= query.now)
+    if (holds_->hold(id).robot != query.robot && holds_->hold(id).end <= query.now)
       start.before = id;
   nodes_.push_back(start);
   open_.push_back({query.now + estimate(start.cell), query.now, 0, 0});

@@ -110,7 +110,7 @@ def _scenario(table: ScenarioTable, site: Site, file: str) -> Scenario:
     poses = {zone.name: zone.pose for zone in site.zones if zone.pose is not None}
     orders = [task.built(poses, tuple(task.after)) for task in table.tasks]
     known = {task.id: f"tasks[{i}] of {file}" for i, task in enumerate(table.tasks)}
-    for name in table.order_files():
+    for name in table.orders:
         listed = read_orders(Path(file).parent / name, idle, known)
         known |= {order.task.id: name for order in listed}
         orders += listed

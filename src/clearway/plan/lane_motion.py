@@ -59,7 +59,7 @@ def trajectory_of(
     start: Pose,
     stays: Sequence[_core.CellStay],
     goal: Pose,
-    stop: Stop,
+    stops: tuple[Stop, ...],
     loaded: bool = False,
 ) -> Trajectory:
     """Join straight runs at even speed, and turns on the spot, to a trajectory.
@@ -100,7 +100,7 @@ def trajectory_of(
         add(((k - first) * grid.cell, 0.0, 0.0), stays[first].depart, stays[k].arrive)
         pose = grid.centre(cells[k], HEADINGS[steps[first]])
     turn(goal.theta, stays[-1])
-    return Trajectory(robot, start, tuple(pieces), tuple(timing), (stop,))
+    return Trajectory(robot, start, tuple(pieces), tuple(timing), stops)
 
 
 def split(trajectory: Trajectory, at: int) -> Trajectory:

@@ -1,4 +1,4 @@
-"""Waits on lanes in words: where a robot stands, for whom, and why those go first."""
+"""Waits by rule, in words: where a robot stands, for whom, and why those go first."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -7,28 +7,6 @@ from clearway import _core
 from clearway.model import Commitment, Wait
 from clearway.plan.lane_motion import paused
 from clearway.plan.waits_by_rule import Pause
-
-
-def search_waits(
-    stays: Sequence[_core.CellStay], behind: Sequence[int], names: Sequence[str]
-) -> tuple[Wait, ...]:
-    """Return the waits of a way that a search found.
-
-    Parameters
-    ----------
-    behind
-        For each stay the robot that is waited for; -1: nobody.
-    """
-    return tuple(
-        Wait(
-            stay.arrive,
-            stay.turn_begin,
-            (names[other],),
-            f"{names[other]} goes first: it holds the way on until then",
-        )
-        for stay, other in zip(stays, behind, strict=True)
-        if other >= 0
-    )
 
 
 def own_waits(

@@ -89,14 +89,14 @@ class TailTrips:
         """Expansions, searches, those that found nothing, and tails that wait for all to rest."""
         return self._counters
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         """Commit a robot to a trip; see `clearway.protocols.TripPlanner`."""
         fleet, robot = self._fleet, trip.robot
         old = fleet.commitments[robot]
         rests = fleet.free(trip.rests, robot, trip.visits[-1].pose)
         if trip.rests and not rests:
             return Refusal("no bay is free", fleet.holders(trip.rests))
-        kept = fleet.cut(robot, now, max(now, old.served))
+        kept = fleet.cut(robot, now, max(now + lead, old.served))
         query = fleet.query(robot, now, kept, trip.visits, rests)
         query.limit = self.params.search_limit * effort
         tail = self._search(query)
@@ -108,7 +108,7 @@ class TailTrips:
         if not tail.found and waited >= to_ticks(self.params.patience):
             # With all at rest, the way from its bay and back is as good as alone.
             all_rest = max(fleet.core.settled(i) for i in range(len(fleet.ids)))
-            kept = fleet.cut(robot, now, max(now, all_rest))
+            kept = fleet.cut(robot, now, max(now + lead, all_rest))
             query = fleet.query(robot, now, kept, trip.visits, rests)
             query.limit = LONE_LIMIT
             tail = self._search(query)
@@ -134,16 +134,16 @@ class TailTrips:
         tail = self._fleet.core.alone(query)
         return int(tail.stops[-1].leave) if tail.found else None
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times."""
         fleet = self._fleet
         for robot, trajectory in trajectories.items():
             old = fleet.commitments[robot]
             waits = retimed_waits(old, trajectory)
             fleet.commitments[robot] = Commitment(robot, trajectory, old.trip, old.rest, waits)
-            fleet.place(robot, trajectory.timing[0][0] if trajectory.timing else 0)
+            fleet.place(robot, now)
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle; see `clearway.protocols.TripPlanner`."""
         detour = Detour(self._fleet, self._search, self.params.search_limit, now)
         return detour.around(obstacle)

@@ -47,18 +47,21 @@ class WaitsByRule:
     Deviations
     ----------
     The paper lets pairs wait for each other without looking at third robots again. Here all
-    conflicts are looked for again after each wait, up to `ROUNDS` times.
+    conflicts are looked for again after each wait, up to so many times.
 
     Parameters
     ----------
     delta
         Ticks within which two robots must not come to one node.
+    rounds
+        Conflicts resolved at the most.
     """
 
-    def __init__(self, grid: LaneGrid, holds: _core.CellHolds, delta: int) -> None:
+    def __init__(self, grid: LaneGrid, holds: _core.CellHolds, delta: int, rounds: int) -> None:
         self._grid = grid
         self._holds = holds
         self._delta = delta
+        self._rounds = rounds
 
     def __call__(
         self, robot: int, stays: Sequence[_core.CellStay], first: int, granted: int
@@ -77,7 +80,7 @@ class WaitsByRule:
         before = {robot: self._holds.route(robot)}
         route = RuledRoute(list(stays))
         self._holds.put(robot, route.stays)
-        for _ in range(ROUNDS):
+        for _ in range(self._rounds):
             clashes = self._holds.clashes(robot, route.stays, granted)
             if not clashes:
                 return route
