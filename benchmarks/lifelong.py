@@ -21,8 +21,8 @@ from clearway.plan.tail_trips import TailTrips, TailTripsParams
 from clearway.protocols import Refusal
 from clearway.world.lifelong import lifelong_warehouse
 
-RETRY = 3000  # ticks after which a refused robot asks again
-TRIES = 4  # at each effort
+RETRY, MOST_RETRY = 1000, 8000  # ticks after which a refused robot asks again, doubled each time
+MOST_EFFORT = 16  # doubled each time, too
 AISLE_PENALTY = 30.0  # m for each other robot that has picks to make in the same aisle
 
 
@@ -108,16 +108,20 @@ def run(scenario: Scenario, params: TailTripsParams, choose: Chooser) -> tuple[T
                 chosen = choose(open_jobs, pose, [b[0] for b in busy.values()])
                 wanted[robot] = open_jobs.pop(chosen)
             job = wanted[robot]
-            visits = (Visit(None, pose_of(job.pick), service), Visit(None, pose_of(job.station), service))
+            visits = (
+                Visit(None, pose_of(job.pick), service),
+                Visit(None, pose_of(job.station), service),
+            )
             trip = Trip(robot, visits, "order", None, (job.pick.name, job.station.name), bays)
             clock = time.process_time()
-            answer = trips.plan(trip, now, 1 + tries[robot] // TRIES)
+            answer = trips.plan(trip, now, min(2 ** tries[robot], MOST_EFFORT))
             tally.cpu.append(time.process_time() - clock)
+            pause = min(RETRY * 2 ** tries[robot], MOST_RETRY)
             tries[robot] += 1
             if isinstance(answer, Refusal):
                 tally.refused += 1
                 tally.expansions.append(answer.expansions)
-                asks[robot] = now + RETRY
+                asks[robot] = now + pause
                 continue
             tally.longest = max(tally.longest, now - since[robot])
             del wanted[robot]
@@ -164,9 +168,13 @@ def main() -> None:
     parser.add_argument("--choose", choices=("first", "nearest"), default="first")
     parser.add_argument("--limit", type=int)
     parser.add_argument("--rests", type=int)
+    parser.add_argument("--search", nargs="*", default=[])
     options = parser.parse_args()
     given = {"search_limit": options.limit, "most_rests": options.rests}
     params = TailTripsParams(**{key: value for key, value in given.items() if value is not None})
+    for pair in options.search:
+        key, value = pair.split("=")
+        setattr(params.core.search, key, type(getattr(params.core.search, key))(float(value)))
     chooser = first if options.choose == "first" else nearest
     for robots in options.robots:
         for seed in options.seeds:

@@ -58,6 +58,8 @@ void bind_path_conflicts(nb::module_& m) {
   m.def("path_conflicts", &path_conflicts, "a"_a, "done_a"_a, "b"_a, "done_b"_a, "params"_a,
         nb::call_guard<nb::gil_scoped_release>(),
         "Where two committed motions need the same floor, whatever their times become.");
+  m.def("paths_overlap", &paths_overlap, "a"_a, "from_a"_a, "to_a"_a, "b"_a, "from_b"_a, "to_b"_a,
+        "Whether bodies are in each other for some tick of each of two stretches.");
 }
 
 }  // namespace clearway::bindings

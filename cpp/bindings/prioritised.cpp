@@ -142,6 +142,7 @@ void bind_prioritised(nb::module_& m) {
       .def(nb::init<>())
       .def_rw("weight", &SearchParams::weight)
       .def_rw("greed", &SearchParams::greed)
+      .def_rw("most_weight", &SearchParams::most_weight)
       .def_rw("tail_weight", &SearchParams::tail_weight)
       .def_rw("soft_weight", &SearchParams::soft_weight)
       .def_rw("cell", &SearchParams::cell)

@@ -510,6 +510,12 @@ class SearchParams:
     def greed(self, arg: float, /) -> None: ...
 
     @property
+    def most_weight(self) -> float: ...
+
+    @most_weight.setter
+    def most_weight(self, arg: float, /) -> None: ...
+
+    @property
     def tail_weight(self) -> float: ...
 
     @tail_weight.setter
@@ -1243,6 +1249,11 @@ class PathConflicts:
 def path_conflicts(a: CommittedPath, done_a: int, b: CommittedPath, done_b: int, params: PathParams) -> PathConflicts:
     """
     Where two committed motions need the same floor, whatever their times become.
+    """
+
+def paths_overlap(a: CommittedPath, from_a: int, to_a: int, b: CommittedPath, from_b: int, to_b: int) -> bool:
+    """
+    Whether bodies are in each other for some tick of each of two stretches.
     """
 
 class AssignmentCosts:

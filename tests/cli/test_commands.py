@@ -1,10 +1,12 @@
 """What each command does, prints and ends with."""
 
 import json
+import shutil
 
 import pytest
 
 from clearway.formats.plan_file import read_plan
+from clearway.formats.ready_made import scenario_folder
 from clearway.validate import validate_plan
 
 RUN_FILES = {"plan.json", "metrics.json", "report.html", "plan.png", "scenario.toml"}
@@ -119,6 +121,18 @@ def test_check_draws_what_is_wrong_too(clearway, hall, tmp_path):
     told = clearway("check", hall, "--json")
     assert told.code == 2
     assert [finding["kind"] for finding in told.json["findings"]] == ["start_in_obstacle"]
+
+
+def test_check_tells_what_a_run_through_time_lacks(clearway, tmp_path):
+    """A doubt is printed with its arithmetic and fails nothing; orders of files are counted."""
+    shutil.copytree(scenario_folder() / "orders", tmp_path, dirs_exist_ok=True)
+    path = tmp_path / "warehouse.toml"
+    path.write_text(path.read_text().replace("charging = 500.0", "charging = 50000.0"))
+    told = clearway("check", path)
+    assert (told.code, told.err) == (0, "")
+    assert "4 robots, 11 tasks" in told.out
+    assert "1. warning: site.zones: 4 robots at most drain 4 x 1/5000 s = 0.08 %/s; " in told.out
+    assert "33 chargers give 33 x 1/50000 s = 0.066 %/s; add 7 chargers" in told.out
 
 
 def test_validate_finds_nothing_wrong_in_a_right_plan(clearway, solved_hall):

@@ -1,18 +1,18 @@
 """A small fleet that is late: it stops at random, drives slowly, and loses reports."""
 
-import itertools
 import random
+from dataclasses import replace
 
 from clearway.execute.course import Course
 from clearway.formats.sampling import sample
-from clearway.model import Piece, PlanRecord, Pose, Robot, Site, Status, Trajectory
+from clearway.model import Piece, PlanRecord, Robot, Site, Status, Trajectory
 from clearway.validate import validate_plan
 
 STEP = 100
 
 
 class Late:
-    """Moves robots by their grants, step by step, and remembers how far each came when."""
+    """Moves robots by their grants, step by step, and remembers what each has driven when."""
 
     def __init__(self, commitments, executor, seed, *, stops=0.01, slow=0.3, lost=0.3):
         self.rng = random.Random(seed)
@@ -20,7 +20,8 @@ class Late:
         self.commitments = dict(commitments)
         self.courses = {r: Course(c.trajectory) for r, c in commitments.items()}
         self.progress = dict.fromkeys(commitments, 0)
-        self.log = {robot: [0] for robot in commitments}
+        self.driven = {r: ([], []) for r in commitments}
+        self.starts = {r: c.trajectory.start for r, c in commitments.items()}
         self.speed = {r: 0.6 if self.rng.random() < slow else 1.0 for r in commitments}
         self.stops, self.lost = stops, lost
         self.stopped = dict.fromkeys(commitments, 0)
@@ -39,66 +40,80 @@ class Late:
             if self.rng.random() < self.stops:
                 self.stopped[robot] = self.now + self.rng.randrange(1000, 15000)
             if self.now >= self.stopped[robot]:
+                before = self.progress[robot]
                 self.progress[robot] = self.advanced(robot, course, granted)
-            self.log[robot].append(self.progress[robot])
+                self.remember(robot, before, self.progress[robot])
         for robot in self.courses:
             if self.rng.random() >= self.lost:
                 self.executor.report(robot, self.progress[robot])
 
     def advanced(self, robot, course, granted):
+        """How far a robot comes within a step: never ahead of the plan, waits skipped if late."""
         left, tick = STEP, self.progress[robot]
-        while left > 0:
-            tick = min(course.skipped(tick, self.now), course.stands_until(granted))
+        last = min(self.now, course.stands_until(granted))
+        while True:
+            tick = max(tick, min(course.skipped(tick, self.now), last))
             stretch = course.stretches[course.index(tick)]
-            ahead = min(self.now, course.stands_until(granted), stretch.end) - tick
-            if stretch.is_wait or ahead <= 0:
-                return max(tick, self.progress[robot])
             pace = self.speed[robot] if stretch.piece else 1.0
-            move = min(ahead, int(left * pace))
-            if move <= 0:
+            move = min(last - tick, stretch.end - tick, int(left * pace))
+            if stretch.is_wait or move <= 0:
                 return tick
             tick += move
             left -= round(move / pace)
-        return tick
 
-
-def executed(commitment, log):
-    """What a robot has done, as a trajectory in true time."""
-    course = Course(commitment.trajectory)
-    pieces, timing = [], []
-    for k, (a, b) in enumerate(itertools.pairwise(log)):
+    def remember(self, robot, before, after):
+        """Note what has been driven in the step that ends now, evenly over its time."""
         parts = []
-        for stretch in course.stretches:
-            low, high = max(a, stretch.begin), min(b, stretch.end)
+        for stretch in self.courses[robot].stretches:
+            low, high = max(before, stretch.begin), min(after, stretch.end)
             if stretch.piece is not None and low < high:
                 parts.append((stretch, low, high))
-        edges = [k * STEP + STEP * i // max(1, len(parts)) for i in range(len(parts) + 1)]
-        for (stretch, low, high), t0, t1 in zip(parts, edges, edges[1:], strict=False):
+        pieces, timing = self.driven[robot]
+        begin = self.now - STEP
+        for i, (stretch, low, high) in enumerate(parts):
             share = (high - low) / stretch.duration
             twist = tuple(share * v for v in stretch.piece.twist)
             start = stretch.piece.at((low - stretch.begin) / stretch.duration)
             pieces.append(Piece(len(pieces), stretch.piece.mode, start, twist))
-            timing.append((t0, t1))
-    start = commitment.trajectory.start
-    return Trajectory(commitment.robot, start, tuple(pieces), tuple(timing))
+            edges = (begin + STEP * i // len(parts), begin + STEP * (i + 1) // len(parts))
+            timing.append(edges)
+
+    def renew(self, commitments):
+        """Put robots on other motions, where they go on at the tick that the ledger gives them."""
+        self.executor.commit(commitments, self.now)
+        for robot, commitment in commitments.items():
+            self.commitments[robot] = commitment
+            self.courses[robot] = Course(commitment.trajectory)
+            self.progress[robot] = self.executor.reserve(robot)[0]
+
+    def retime(self):
+        """Everybody takes the times to be expected for those of the plan."""
+        projected = self.executor.projected(self.now)
+        self.renew({r: replace(self.commitments[r], trajectory=t) for r, t in projected.items()})
+
+    def overlaps(self, types):
+        """What the judge finds of bodies in each other; ``types`` by robot."""
+        paths = {
+            robot: Trajectory(robot, self.starts[robot], tuple(pieces), tuple(timing))
+            for robot, (pieces, timing) in self.driven.items()
+        }
+        return overlaps(paths, types)
 
 
-def overlaps(commitments, logs, types):
-    """What the judge finds of bodies in each other; ``types`` by robot."""
-    paths = {robot: executed(c, logs[robot]) for robot, c in commitments.items()}
+def overlaps(paths, types):
+    """What the judge finds of bodies in each other on trajectories; ``types`` by robot."""
     points = [p for path in paths.values() for p in (path.start, path.final_pose)]
     xs, ys = [p.x for p in points], [p.y for p in points]
     low, high = (min(xs) - 50, min(ys) - 50), (max(xs) + 50, max(ys) + 50)
-    site = Site(bounds=(low, (high[0], low[1]), high, (low[0], high[1])))
     ends = [path.end / 1000.0 for path in paths.values()]
     record = PlanRecord(
         scenario="late",
         system="late",
         seed=0,
         status=Status.SOLVED,
-        site=site,
+        site=Site(bounds=(low, (high[0], low[1]), high, (low[0], high[1]))),
         robot_types={kind.name: kind for kind in types.values()},
-        robots=tuple(Robot(r, types[r].name, Pose(*paths[r].start)) for r in commitments),
+        robots=tuple(Robot(r, types[r].name, path.start) for r, path in paths.items()),
         tours={},
         tracks={r: sample(path, False) for r, path in paths.items()},
         assignment={},

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from tests.execute.lanes import BOX, crowd, driven, hall
-from tests.execute.late import Late, overlaps
+from tests.execute.late import Late
 
 from clearway.execute import CellConflicts, RightOfWay, TrackPlan
 from clearway.protocols import Binding
@@ -90,7 +90,8 @@ def test_new_motion_through_granted_floor_is_refused():
 def test_late_robots_arrive_without_overlap(seed):
     """Stops of up to 15 s, three of ten robots slow, three of ten reports lost."""
     grid, commitments = crowd(14, seed)
-    ledger = RightOfWay(CellConflicts(grid))
+    check = CellConflicts(grid)
+    ledger = RightOfWay(check)
     fleet = Late(commitments, ledger, seed)
     granted = dict.fromkeys(commitments, 0)
     while not fleet.is_done:
@@ -100,7 +101,8 @@ def test_late_robots_arrive_without_overlap(seed):
             _, grant = ledger.reserve(robot)
             assert grant >= granted[robot]
             granted[robot] = grant
-    assert overlaps(commitments, fleet.log, dict.fromkeys(commitments, BOX)) == []
+        assert ledger.overlapping(check.overlap) == ()
+    assert fleet.overlaps(dict.fromkeys(commitments, BOX)) == []
 
 
 def test_without_the_ledger_late_robots_run_into_each_other():
@@ -108,4 +110,4 @@ def test_without_the_ledger_late_robots_run_into_each_other():
     fleet = Late(commitments, TrackPlan(), 0)
     while not fleet.is_done:
         fleet.step()
-    assert overlaps(commitments, fleet.log, dict.fromkeys(commitments, BOX)) != []
+    assert fleet.overlaps(dict.fromkeys(commitments, BOX)) != []

@@ -292,7 +292,8 @@ def test_scenarios_take_orders_from_files_beside_them(tmp_path: Path) -> None:
         read_scenario(path)
 
 
-names = st.text(min_size=1, max_size=6).filter(lambda s: s.isprintable() and s == s.strip())
+printable = st.characters(exclude_categories=("C", "Z"), include_characters=" ")
+names = st.text(printable, min_size=1, max_size=6).filter(lambda s: s == s.strip())
 poses = st.builds(Pose, st.floats(-1e4, 1e4), st.floats(-1e4, 1e4), st.floats(-6, 6))
 times = st.floats(0.0, 1e6)
 

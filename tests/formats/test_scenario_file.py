@@ -164,7 +164,8 @@ def _toml(value: object) -> str:
     return f'"{value}"' if isinstance(value, str) else repr(value)
 
 
-names = st.text(min_size=1, max_size=8).filter(lambda s: s.isprintable() and s.strip() != "")
+printable = st.characters(exclude_categories=("C", "Z"), include_characters=" ")
+names = st.text(printable, min_size=1, max_size=8).filter(lambda s: s.strip() != "")
 metres = st.floats(-1e4, 1e4)
 poses = st.builds(Pose, metres, metres, st.floats(-math.tau, math.tau))
 seconds = st.floats(0.0, 1e6)
@@ -229,7 +230,11 @@ def simulations(draw: st.DrawFn, obstacles: st.SearchStrategy[Obstacle], site: S
         tuple(streams),
         draw(
             st.builds(
-                Disturbances, seconds, st.just((1.0, 2.5)), share, share.filter(lambda x: x > 0)
+                Disturbances,
+                seconds,
+                st.just((1.0, 2.5)),
+                share,
+                st.floats(0.0, 1.0, exclude_min=True),
             )
         ),
         tuple(draw(st.lists(st.builds(Surprise, seconds, obstacles), max_size=2))),

@@ -1,6 +1,6 @@
 """The figures of a run through time, against sums worked by hand.
 
-The day of tests/data/bad_traces/make.py lasts 27 s. Cart ``a`` is on trips from 0 to 27 s, waits
+The day of tests/data/bad_traces/story.py lasts 27 s. Cart ``a`` is on trips from 0 to 27 s, waits
 1 s for its own stop, and is at visits for 2 + 3 + 1 s; it drives 5 m empty, then 15 m with a shelf.
 Cart ``b`` is on trips from 1 to 11 s and from 17 to 22 s, waits 2 s for ``a``, is at visits for
 2 + 5 s, and drives 6 m empty for its order and 6 m back for nobody.
@@ -57,6 +57,14 @@ def test_travel_for_orders_with_nothing_on_board_is_empty(day) -> None:
     assert (a.distance, a.empty) == pytest.approx((20.0, 5.0))
     assert (b.distance, b.empty) == pytest.approx((12.0, 6.0))
     assert day.empty_share == pytest.approx(11 / 32)
+    assert day.pickups == 1
+
+
+def test_a_fleet_that_never_carries_is_not_told_to_drive_empty(traces) -> None:
+    """Without anything to carry there is no empty travel to speak of."""
+    metrics = trace_metrics(traces.errand())
+    assert (metrics.pickups, metrics.empty_share) == (0, pytest.approx(1.0))
+    assert "empty" not in told(metrics)
 
 
 def test_energy_used_is_what_levels_drop(day) -> None:

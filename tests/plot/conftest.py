@@ -1,7 +1,9 @@
 """A warehouse run to look at: pieces, samples and visits, made without any planner."""
 
 import math
-from collections.abc import Sequence
+import shutil
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
@@ -28,6 +30,9 @@ from clearway.model import (
     to_seconds,
     to_ticks,
 )
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 SPEED = 1.5
 YAW_RATE = 0.5
@@ -224,3 +229,17 @@ def closest(record: PlanRecord, every: float = 0.5) -> list[tuple[str, str, floa
 @pytest.fixture(scope="session")
 def warehouse_record() -> PlanRecord:
     return record_of(fleet([f"R{k + 1}" for k in range(8)]))
+
+
+@pytest.fixture(scope="session")
+def browser() -> "Iterator[Browser]":
+    api = pytest.importorskip("playwright.sync_api", reason="pip install playwright")
+    names = ("chromium", "chromium-browser", "google-chrome")
+    found = next((path for name in names if (path := shutil.which(name))), None)
+    if found is None:
+        pytest.skip("no Chromium is installed: apt-get install chromium")
+    arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+    with api.sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=found, args=arguments)
+        yield browser
+        browser.close()

@@ -2,89 +2,21 @@
 
 import json
 import math
-import shutil
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
+from tests.plot.visitor import DESK, HOSTILE, PHONE, Visitor
 
 from clearway.metrics import plan_metrics
 from clearway.model import PlanRecord, Pose, Status
 from clearway.plot.report import write_report
 
-try:
-    from playwright.sync_api import Browser, Page, sync_playwright
-except ImportError:
-    pytest.skip("playwright is absent: pip install playwright", allow_module_level=True)
-
-PHONE = {"width": 360, "height": 740}
-DESK = {"width": 1600, "height": 1000}
-HOSTILE = ("</script><b>x</b>", "\"'><img src=x onerror=alert(1)>", "__proto__", "\u2028 & &lt;")
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    names = ("chromium", "chromium-browser", "google-chrome")
-    found = next((path for name in names if (path := shutil.which(name))), None)
-    if found is None:
-        pytest.skip("no Chromium is installed: apt-get install chromium")
-    arguments = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found, args=arguments)
-        yield browser
-        browser.close()
-
-
-class Visitor:
-    """Somebody with the page open, who notices every complaint and every request."""
-
-    def __init__(self, browser: Browser, file: Path, size: dict[str, int], **context: Any) -> None:
-        settings = {"viewport": size, "reduced_motion": "reduce", **context}
-        self.page: Page = browser.new_context(**settings).new_page()
-        self.complaints: list[str] = []
-        self.requests: list[str] = []
-        self.page.on("console", lambda message: self.complaints.append(message.text))
-        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        self.page.on("request", lambda request: self.requests.append(request.url))
-        self.page.goto(file.as_uri())
-        self.settle()
-
-    def settle(self) -> None:
-        """Wait until the page has drawn what it was told."""
-        self.page.evaluate(
-            "new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))"
-        )
-
-    def run(self, script: str) -> Any:
-        result = self.page.evaluate(script)
-        self.settle()
-        return result
-
-    def wait(self, condition: str) -> None:
-        """Wait for a condition, ten seconds of frames at most; the page's policy forbids eval."""
-        script = """async () => {
-            for (let i = 0; i < 600 && !(CONDITION); i += 1) {
-                await new Promise((done) => requestAnimationFrame(done));
-            }
-            return Boolean(CONDITION);
-        }"""
-        assert self.page.evaluate(script.replace("CONDITION", condition)), condition
-
-    def press(self, *keys: str) -> dict[str, Any]:
-        for key in keys:
-            self.page.keyboard.press(key)
-        self.settle()
-        return dict(self.page.evaluate("clearway.view()"))
-
-    @property
-    def time(self) -> float:
-        return float(self.page.evaluate("clearway.time()"))
-
-    def close(self) -> None:
-        self.page.context.close()
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 @pytest.fixture(scope="session")
@@ -97,7 +29,7 @@ def report(warehouse_record: PlanRecord, tmp_path_factory: pytest.TempPathFactor
 
 
 @pytest.fixture
-def desk(browser: Browser, report: Path) -> Iterator[Visitor]:
+def desk(browser: "Browser", report: Path) -> Iterator[Visitor]:
     visitor = Visitor(browser, report, DESK)
     yield visitor
     visitor.close()
@@ -115,7 +47,7 @@ def pose_of(record: PlanRecord, robot: str, time: float) -> Pose:
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("size", [PHONE, DESK, {"width": 2560, "height": 1440}])
 def test_the_page_fits_and_asks_for_nothing(
-    browser: Browser, report: Path, size: dict[str, int], theme: str
+    browser: "Browser", report: Path, size: dict[str, int], theme: str
 ) -> None:
     """On a phone and on a desk, by day and by night, nothing overflows, complains or phones."""
     visitor = Visitor(browser, report, size, color_scheme=theme)
@@ -229,7 +161,7 @@ def test_wheel_and_drag_move_the_view(desk: Visitor) -> None:
     assert desk.page.evaluate("clearway.view().zoom") == pytest.approx(1.0)
 
 
-def test_two_fingers_zoom(browser: Browser, report: Path) -> None:
+def test_two_fingers_zoom(browser: "Browser", report: Path) -> None:
     """Two fingers that move apart to twice their distance zoom in twofold."""
     visitor = Visitor(browser, report, PHONE, has_touch=True)
     visitor.page.locator("#floor").scroll_into_view_if_needed()
@@ -296,7 +228,7 @@ def test_the_closest_pairs_are_listed_first(desk: Visitor) -> None:
 
 
 def test_it_starts_by_itself_unless_motion_is_unwelcome(
-    browser: Browser, report: Path, desk: Visitor
+    browser: "Browser", report: Path, desk: Visitor
 ) -> None:
     """Who prefers reduced motion finds the replay at rest."""
     assert not desk.page.evaluate("clearway.view().playing")
@@ -306,7 +238,7 @@ def test_it_starts_by_itself_unless_motion_is_unwelcome(
 
 
 def test_ids_are_never_markup(
-    browser: Browser, warehouse_record: PlanRecord, tmp_path: Path
+    browser: "Browser", warehouse_record: PlanRecord, tmp_path: Path
 ) -> None:
     """An id may hold what it likes: it is shown as it is, and does nothing."""
     names = dict(zip([r.id for r in warehouse_record.robots], HOSTILE, strict=False))

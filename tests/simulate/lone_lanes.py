@@ -57,7 +57,7 @@ class AlongLanes:
         }
         self.efforts: list[int] = []
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         self.efforts.append(effort)
         visit = trip.visits[0]
         if visit.pose.x > 100.0:
@@ -82,10 +82,10 @@ class AlongLanes:
     def counters(self) -> Mapping[str, int]:
         return {"expansions": len(self.efforts)}
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         raise NotImplementedError
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         return ()
 
 

@@ -160,6 +160,32 @@ def test_the_literal_map_closes_the_lanes_that_lead_back():
     assert moves[5, 5] == WEST | SOUTH  # of the apron
 
 
+def test_the_literal_map_closes_the_left_channel_away_from_a_station():
+    """From station (0, 9) to the upper right, Algorithm 1; to it from there, Algorithm 2."""
+    grid = lane_grid(Layout("bidirectional"))
+    moves = DynamicMap(grid, "literal")((0, 9), (30, 22))
+    assert moves[10, 1] == moves[12, 1] == moves[13, 1] == 0  # southbound, above
+    assert moves[7, 2] == 0  # northbound, below
+    assert moves[5, 2] & EAST  # but its crossings are re-opened
+    assert moves[9, 6] == 0  # westbound, in the station's channel
+    assert moves[8, 6] == EAST | WEST
+    moves = DynamicMap(grid, "literal")((30, 22), (0, 9))
+    assert moves[7, 1] == moves[5, 1] == 0  # southbound, below
+    assert moves[10, 2] == 0  # northbound, above
+    assert moves[8, 6] == 0  # eastbound, in the station's channel
+    assert moves[9, 6] == EAST | WEST
+
+
+def test_where_the_literal_map_says_nothing_moves_follow_the_lanes():
+    """From shelf (5, 6) to shelf (8, 22) in the same block, and to (30, 7) in the same channel."""
+    grid = lane_grid(Layout("bidirectional"))
+    moves = DynamicMap(grid, "literal")((5, 6), (8, 22))
+    assert moves[14, 2] == NORTH
+    assert moves[14, 1] == SOUTH
+    moves = DynamicMap(grid, "literal")((5, 6), (30, 3))
+    assert moves[4, 20] == EAST
+
+
 def test_modes_and_places_that_do_not_exist_are_refused():
     with pytest.raises(ValueError, match="'literal' is for bidirectional layouts, not 'compact'"):
         DynamicMap(lane_grid(Layout("compact")), "literal")

@@ -133,6 +133,18 @@ class Waits {
   std::size_t begin_ = 0;  // where what is told of a's present cell begins
 };
 
+bool overlap(const Part& a, const Part& b) {
+  const double half = 0.5 * (a.motion + b.motion), found = gap_between(a, b, half);
+  if (found < -kHidden) return true;
+  if (found - half >= -kHidden || half < 0.1 * kHidden) return false;
+  const bool is_a = a.motion >= b.motion;
+  const Part& longer = is_a ? a : b;
+  const Ticks middle = longer.half();
+  if (middle == longer.begin) return false;
+  const Part early = longer.cut(longer.begin, middle), late = longer.cut(middle, longer.end);
+  return is_a ? overlap(early, b) || overlap(late, b) : overlap(a, early) || overlap(a, late);
+}
+
 void prune(std::vector<Passage>& passages) {
   std::sort(passages.begin(), passages.end(), [](const Passage& p, const Passage& q) {
     return p.at < q.at || (p.at == q.at && p.passed > q.passed);
@@ -191,6 +203,20 @@ PathConflicts path_conflicts(const CommittedPath& a, Ticks done_a, const Committ
   Waits(done_b, done_a, params, found.second, found.meeting)(b, a);
   prune(found.first);
   prune(found.second);
+  return found;
+}
+
+bool paths_overlap(const CommittedPath& a, Ticks from_a, Ticks to_a, const CommittedPath& b,
+                   Ticks from_b, Ticks to_b) {
+  bool found = false;
+  for (const Cell& cell : a.cells()) {
+    if (found || cell.end <= from_a || cell.begin > to_a) continue;
+    const Part mine(cell, std::max(from_a, cell.begin), std::min(to_a, cell.end));
+    b.backwards(mine.box(0.0), from_b, to_b + 1, [&](const Cell& other) {
+      const Part its(other, std::max(from_b, other.begin), std::min(to_b, other.end));
+      return found = overlap(mine, its);
+    });
+  }
   return found;
 }
 

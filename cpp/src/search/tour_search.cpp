@@ -15,8 +15,7 @@ namespace {
 constexpr double kCoarsestGoalCell = 0.5, kFinestGoalCell = 0.1;  // of goal distances (m)
 constexpr int kMostDelays = 64;            // departures tried for one motion before it is given up
 constexpr std::int64_t kFirstGreed = 256;  // expansions until a search grows greedier
-constexpr double kMostWeight = 2.5;
-constexpr double kCertain = 0.95;  // share of an estimate that is relied on
+constexpr double kCertain = 0.95;          // share of an estimate that is relied on
 constexpr std::int32_t kNone = -1;
 // Towards a visit that must wait for its time, one sets out so much earlier: that many times the
 // least duration, and some ticks more.
@@ -95,6 +94,7 @@ class TourRun {
  private:
   void prepare();
   void look_ahead();
+  void find_earliest();
   void learn_distance(int leg);
   void grow_greedy();
   void sort_anew();
@@ -168,7 +168,8 @@ class TourRun {
   std::vector<std::vector<Goal>> goals_;  // per leg
   std::vector<std::int64_t> spent_on_;    // expansions per leg
   std::vector<double> tail_;              // estimate of all that follows a leg
-  std::vector<double> floor_;  // priority that a leg's states cannot fall below (time only)
+  std::vector<Ticks> earliest_;  // begin of each service before the last rest; 0: nothing known
+  std::vector<double> floor_;    // priority that a leg's states cannot fall below (time only)
   std::vector<Step> primitive_steps_;
   std::int32_t found_ = kNone;
   std::int32_t best_ = kNone;  // cheapest complete way so far
@@ -232,11 +233,40 @@ void TourRun::look_ahead() {
                (s_.objective_.time ? legs_[i].service : 0);
   }
   // Whatever comes early waits: all ways there are worth as much, and the nearest goes first.
+  if (earliest_.empty()) find_earliest();
   floor_.assign(legs_.size(), 0.0);
   for (std::size_t i = legs_.size() - 1; i-- > 0;) {
-    const double begin = legs_[i].not_before - q_.ready;
+    const double begin = std::max(legs_[i].not_before, earliest_[i]) - q_.ready;
     const double after = std::max(weight_, s_.params_.tail_weight) * tail_[i];
     floor_[i] = std::max(floor_[i + 1], begin > 0.0 ? begin + after : 0.0);
+  }
+}
+
+// From when on each service is possible: no sooner than the robot can come, and when nobody else is
+// at its place.
+void TourRun::find_earliest() {
+  earliest_.assign(legs_.size(), 0);
+  if (!q_.traffic || q_.penalty || !s_.objective_.time) return;
+  Pose from = q_.start;
+  Ticks t = q_.ready;
+  for (std::size_t i = 0; i + 1 < legs_.size(); ++i) {
+    const Leg& leg = legs_[i];
+    const int l = static_cast<int>(i);
+    t += static_cast<Ticks>(kCertain * estimate(l, from.x, from.y, from.theta, 0.0));
+    const Ticks soonest = t;
+    const Frame at(leg.goal);
+    while (true) {
+      Ticks met = t;
+      if (meet_.safe_until(body(l), at, t, kNobody, &met) >= t + leg.service) break;
+      t = meet_.next_free(body(l), at, met, kNobody);
+      if (t >= kNever) {
+        hopeless_ = true;  // somebody stands there for ever
+        return;
+      }
+    }
+    if (t > soonest) earliest_[i] = t;
+    t = std::max(t, leg.not_before) + leg.service;
+    from = leg.goal;
   }
 }
 
@@ -253,7 +283,8 @@ void TourRun::learn_distance(int leg) {
 // The longer a search lasts, the more it goes for the goal.
 void TourRun::grow_greedy() {
   next_greed_ *= 2;
-  const double greedier = std::min(weight_ + s_.params_.greed, std::max(weight_, kMostWeight));
+  const double greedier =
+      std::min(weight_ + s_.params_.greed, std::max(weight_, s_.params_.most_weight));
   if (greedier == weight_) return;
   weight_ = greedier;
   look_ahead();

@@ -12,6 +12,8 @@ from clearway.assign.look_ahead import LookAhead, LookAheadParams
 from clearway.assign.memetic import MemeticApsga, MemeticParams
 from clearway.assign.native import native_costs, values
 from clearway.assign.nearest_idle import NearestIdle
+from clearway.assign.nearest_order import NearestOrder, NearestOrderParams
+from clearway.assign.oldest_order import OldestOrder
 from clearway.assign.parking import park
 from clearway.assign.psga import Psga, PsgaParams
 from clearway.assign.pso import Pso, PsoParams
@@ -42,6 +44,9 @@ __all__ = [
     "MemeticApsga",
     "MemeticParams",
     "NearestIdle",
+    "NearestOrder",
+    "NearestOrderParams",
+    "OldestOrder",
     "Psga",
     "PsgaParams",
     "Pso",

@@ -3,8 +3,9 @@
 import json
 from pathlib import Path
 
-from clearway.formats.atomic import write_bytes, write_text
+from clearway.formats.atomic import write_text
 from clearway.formats.plan_file import write_plan
+from clearway.formats.scenario_file import copy_scenario
 from clearway.systems.solve import Planned, Run
 
 
@@ -13,8 +14,7 @@ def write_plan_first(planned: Planned, source: Path, out: Path) -> list[Path]:
     out.mkdir(parents=True, exist_ok=True)
     plan, copy = out / "plan.json", out / "scenario.toml"
     write_plan(planned.record, plan)
-    if source.resolve() != copy.resolve():
-        write_bytes(copy, source.read_bytes())
+    copy_scenario(source, copy)
     return [plan, copy]
 
 

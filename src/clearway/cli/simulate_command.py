@@ -9,9 +9,9 @@ from typing import Any
 
 from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG
 from clearway.cli.progress import ProgressLine
-from clearway.formats.atomic import write_bytes, write_text
+from clearway.formats.atomic import write_text
 from clearway.formats.plan_file import write_plan
-from clearway.formats.scenario_file import read_scenario
+from clearway.formats.scenario_file import copy_scenario, read_scenario
 from clearway.formats.trace_file import TraceWriter
 from clearway.formats.trace_parse import read_trace
 from clearway.formats.trace_plan import plan_of
@@ -39,8 +39,7 @@ def run_simulate(arguments: argparse.Namespace) -> int:
             # What an earlier run left here would belie this one.
             for name in ("plan.json", "metrics.json", "report.html", "plan.png"):
                 (out / name).unlink(missing_ok=True)
-            if source.resolve() != (out / "scenario.toml").resolve():
-                write_bytes(out / "scenario.toml", source.read_bytes())
+            copy_scenario(source, out / "scenario.toml")
             return stack.enter_context(TraceWriter(trace_file, header))
 
         run = simulate(

@@ -30,11 +30,15 @@ class CoordinatorParams:
         Ticks between two tries at the most.
     most_effort
         By how much the effort for a robot that is refused again and again may grow.
+    lead
+        Ticks from now on in which robots may do what they have been granted; new motion begins
+        no sooner.
     """
 
     retry: int = TICKS_PER_SECOND
     most_retry: int = 8 * TICKS_PER_SECOND
     most_effort: int = 16
+    lead: int = 0
 
 
 class Coordinator:
@@ -77,21 +81,15 @@ class Coordinator:
         changed: dict[str, Commitment] = {}
         failed: dict[str, str] = {}
         if seen.trajectories is not None:
-            self._trips.retime(seen.trajectories)
+            self._trips.retime(seen.trajectories, seen.now)
         for order in seen.arrived:
             board.open[order.task.id] = order
         for robot, level in seen.energy.items():
             self._see(robot, energy=level)
         done = self._end_trips(seen)
         board.arrived = tuple(order.task.id for order in seen.arrived)
-        for obstacle in seen.found:
-            for robot in self._trips.block(obstacle, seen.now):
-                changed[robot] = commitment = self._trips.commitment(robot)
-                trip = board.robots[robot].trip
-                if trip is not None and commitment.trip is None:
-                    if trip.order is not None:
-                        board.taken.pop(trip.order, None)
-                    self._see(robot, trip=None, idle_since=seen.now, ready=seen.now)
+        diverted, given_back = self._divert(seen, failed)
+        changed |= {robot: self._trips.commitment(robot) for robot in diverted}
         told: list[Told] = []
         for choice in self._dispatch(board):
             outcome = self._try(choice)
@@ -108,7 +106,33 @@ class Coordinator:
         board.ended = board.arrived = ()
         waits = [again for _, again in self._refused.values()]
         wake = max(min(waits), seen.now + 1) if waits else None
-        return Decision(changed, tuple(told), tuple(done), failed, wake)
+        return Decision(
+            changed, tuple(told), tuple(done), failed, tuple(diverted), tuple(given_back), wake
+        )
+
+    def _divert(self, seen: Observation, failed: dict[str, str]) -> tuple[list[str], list[str]]:
+        """Plan round obstacles; return the robots concerned and the orders they gave back."""
+        board, lead = self._board, self._params.lead
+        diverted: dict[str, None] = {}
+        given_back: list[str] = []
+        for obstacle in seen.found:
+            before = {robot: self._trips.commitment(robot) for robot in board.robots}
+            for robot in self._trips.block(obstacle, seen.now, lead):
+                diverted[robot] = None
+                trip = board.robots[robot].trip
+                if trip is None or self._trips.commitment(robot).trip is trip:
+                    continue
+                self._see(robot, trip=None, idle_since=seen.now, ready=seen.now)
+                if trip.order is None:
+                    continue
+                board.taken.pop(trip.order, None)
+                served = [s.visit for s in before[robot].trajectory.stops if s.leave <= seen.now]
+                if any(trip.visits[visit].load for visit in served):
+                    failed[trip.order] = f"an obstacle bars the way of {robot}, which has the load"
+                    board.open.pop(trip.order, None)
+                else:
+                    given_back.append(trip.order)
+        return list(diverted), given_back
 
     def _try(self, choice: Choice) -> Told | None:
         """Return how a choice went; ``None`` where it is too soon to try it again."""
@@ -118,7 +142,7 @@ class Coordinator:
             return None
         begin = self._cpu()
         effort = min(2**times, self._params.most_effort)
-        outcome = self._trips.plan(trip, board.now, effort)
+        outcome = self._trips.plan(trip, board.now, effort, self._params.lead)
         spent = self._cpu() - begin
         if isinstance(outcome, Refusal):
             pause = min(self._params.retry * 2**times, self._params.most_retry)

@@ -71,6 +71,12 @@ class BodyConflicts:
             )
         return _steps(found.first, other.robot), _steps(found.second, one.robot)
 
+    def overlap(
+        self, one: Commitment, ticks: tuple[int, int], other: Commitment, its: tuple[int, int]
+    ) -> bool:
+        """Return whether bodies are in each other for some tick of each of two stretches."""
+        return _core.paths_overlap(self._path(one), *ticks, self._path(other), *its)
+
     def _path(self, commitment: Commitment) -> _core.CommittedPath:
         known = self._known.get(commitment.robot)
         if known is None or known[0] is not commitment:

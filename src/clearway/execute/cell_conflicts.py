@@ -79,12 +79,26 @@ class CellConflicts:
                         second += self._behind(other.robot, its, one.robot, mine)
         return pruned(first), pruned(second)
 
+    def overlap(
+        self, one: Commitment, ticks: tuple[int, int], other: Commitment, its: tuple[int, int]
+    ) -> bool:
+        """Return whether, within two stretches of ticks, both may hold a cell and not in line."""
+        a, b = self._by_cell(one), self._by_cell(other)
+        for cell in a.keys() & b.keys():
+            for mine in a[cell]:
+                for its_hold in b[cell]:
+                    if not (_during(mine, ticks) and _during(its_hold, its)):
+                        continue
+                    if not (_follows(mine, its_hold) or _follows(its_hold, mine)):
+                        return True
+        return False
+
     def _behind(self, robot: str, mine: CellHold, other: str, its: CellHold) -> list[Precedence]:
         """Return what a robot waits for before it enters a cell that another entered before."""
         if its.leave <= mine.enter:
             return [Precedence(mine.enter, other, its.leave)]
         steps = []
-        if mine.came is not None and mine.came == its.goes:
+        if _follows(mine, its):
             n = self._parts
             for k in range(n):
                 at = mine.enter + (mine.there - mine.enter) * k // n
@@ -147,6 +161,15 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
         enter, there, came = begin, end, step
     holds.append(CellHold(here, enter, there, came=came))
     return holds
+
+
+def _follows(mine: CellHold, its: CellHold) -> bool:
+    """Whether one comes into a cell the way that the other leaves it."""
+    return mine.came is not None and mine.came == its.goes
+
+
+def _during(hold: CellHold, ticks: tuple[int, int]) -> bool:
+    return hold.enter < ticks[1] and ticks[0] < hold.leave
 
 
 def _step(start: Pose, end: Pose) -> Cell:

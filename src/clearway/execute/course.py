@@ -1,6 +1,6 @@
 """A committed trajectory looked up by tick: what a robot does when, and where it is."""
 
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from dataclasses import dataclass
 
 from clearway.model import Piece, Pose, Trajectory
@@ -56,8 +56,18 @@ class Course:
 
     def pose(self, tick: int) -> Pose:
         """Return where the robot is when it has come to a tick."""
+        return self._pose(self.index(tick), tick)
+
+    def pose_before(self, tick: int) -> Pose:
+        """Return where it is when it is about to come to a tick."""
+        index = bisect_left(self._ends, tick)
+        if self.stretches[index].begin >= tick:
+            index -= 1
+        return self._pose(index, tick)
+
+    def _pose(self, index: int, tick: int) -> Pose:
         trajectory = self.trajectory
-        for k in range(self.index(tick), -1, -1):
+        for k in range(index, -1, -1):
             stretch = self.stretches[k]
             if stretch.piece is not None:
                 share = (min(tick, stretch.end) - stretch.begin) / stretch.duration

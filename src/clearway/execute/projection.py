@@ -71,7 +71,7 @@ def project(
         del todo[robot]
         if _push(items, holds[robot], robot, progress, now):
             todo.update(dict.fromkeys(sorted(waiting[robot])))
-    return {robot: _trajectory(courses[robot], items[robot]) for robot in courses}
+    return {robot: _trajectory(courses[robot], progress[robot], items[robot]) for robot in courses}
 
 
 def _left(course: Course, progress: int, now: int) -> list[_Item]:
@@ -132,7 +132,7 @@ def _push(
     return changed
 
 
-def _trajectory(course: Course, items: Sequence[_Item]) -> Trajectory:
+def _trajectory(course: Course, progress: int, items: Sequence[_Item]) -> Trajectory:
     old = course.trajectory
     if all(item.begin == item.planned for item in items):
         return old
@@ -147,7 +147,7 @@ def _trajectory(course: Course, items: Sequence[_Item]) -> Trajectory:
             timing.append((item.begin, item.end))
         elif stretch.visit is not None:
             stops[stretch.visit] = Stop(stretch.visit, item.end - stretch.duration, item.end)
-    start = pieces[0].start if pieces else old.final_pose
+    start = course.pose_before(progress)
     return Trajectory(old.robot, start, tuple(pieces), tuple(timing), tuple(stops.values()))
 
 

@@ -1,9 +1,11 @@
 """How far a robot has come on the new motion that replaces the one it was on."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from clearway.execute.course import Course, Stretch
 from clearway.model import Pose, wrap
+from clearway.protocols import Precedence
 
 # Poses this near (m, rad) are the same.
 NEAR = 1e-6
@@ -28,6 +30,11 @@ class Resumption:
     pairs: tuple[tuple[Stretch, Stretch], ...]
     is_retimed: bool
 
+    @property
+    def until(self) -> int:
+        """Tick on the new course at which what is common ends."""
+        return self.pairs[-1][1].end if self.pairs else self.progress
+
     def granted(self, tick: int) -> int:
         """Return how much of what was granted on the old course holds on the new one."""
         held = self.progress
@@ -47,7 +54,10 @@ class Resumption:
         return None
 
     def passed(self, tick: int) -> int | None:
-        """Return the new tick for one that the robot will have passed; ``None`` within a wait."""
+        """Return the new tick for one that the robot will have passed; ``None`` within a wait.
+
+        All that is not common any more is passed where what is common ends.
+        """
         before, after = self.was, self.progress
         for old, new in self.pairs:
             if tick <= before:
@@ -57,7 +67,31 @@ class Resumption:
             if tick <= old.end:
                 return new.end - (old.end - tick)
             before, after = old.end, new.end
-        return after if tick <= before else None
+        return after if tick <= before or not self.is_retimed else None
+
+
+def carried_over(
+    steps: Iterable[Precedence], mine: Resumption | None, its: Resumption | None
+) -> tuple[Precedence, ...] | None:
+    """Return what a robot waits for in new ticks, as far as both paths are what they were.
+
+    ``None`` where some tick has no like or the new times do not keep the order of passage.
+
+    Parameters
+    ----------
+    mine, its
+        Of the robot that waits and of the other; ``None`` for one whose motion is as it was.
+    """
+    kept = []
+    for step in steps:
+        at = mine.at(step.at) if mine else step.at
+        if at is None and mine and not mine.is_retimed:
+            continue
+        passed = its.passed(step.passed) if its else step.passed
+        if at is None or passed is None or passed > at:
+            return None
+        kept.append(Precedence(at, step.other, passed))
+    return tuple(kept)
 
 
 def resume(robot: str, old: Course, new: Course, progress: int, now: int) -> Resumption:
@@ -75,7 +109,12 @@ def resume(robot: str, old: Course, new: Course, progress: int, now: int) -> Res
     keeps = bool(before and after) and _times(before[0]) == _times(after[0])
     tick = progress if keeps else max(progress, now)
     here, there = old.pose(progress), new.pose(tick)
-    if not _alike(here, there):
+    # Headings may jump at the beginning of a piece: either side of the jump will do.
+    if not any(
+        _alike(a, b)
+        for a in (here, old.pose_before(progress))
+        for b in (there, new.pose_before(tick))
+    ):
         raise ValueError(
             f"robot {robot} has come to ({here.x:.3f}, {here.y:.3f}), tick {progress} of its "
             f"motion, but its new one is at ({there.x:.3f}, {there.y:.3f}) at tick {tick}; commit "

@@ -30,16 +30,19 @@ Conflicts are between stretches of both trajectories, with bodies of any shape. 
 late skip planned waits, and commitments change while robots drive.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
-from clearway.execute.course import Course
+from clearway.execute.course import NEVER, Course
 from clearway.execute.projection import project
-from clearway.execute.resumption import Resumption, resume
+from clearway.execute.resumption import Resumption, carried_over, resume
 from clearway.execute.staircase import Staircase, pruned
 from clearway.model import Commitment, Trajectory
 from clearway.protocols import Binding, Conflicts, Precedence
 
+Stretch = tuple[int, int]
+Overlap = Callable[[Commitment, Stretch, Commitment, Stretch], bool]
 Stairs = dict[str, dict[str, Staircase]]
 
 
@@ -100,9 +103,9 @@ class RightOfWay:
         changed = [r for r in commitments if r in resumed or r not in self._entries]
         stairs = {robot: dict(others) for robot, others in self._stairs.items()}
         for one, other in _pairs(changed, entries):
-            found = self._retimed(one, other, resumed) or self._found(entries, one, other)
+            found = self._between(entries, resumed, one, other)
             for robot, against, precedences in zip((one, other), (other, one), found, strict=True):
-                steps = self._steps(precedences, entries[robot], entries[against])
+                steps = _open_steps(precedences, entries[robot], entries[against])
                 _check_granted(robot, steps, entries)
                 stairs.setdefault(robot, {})[against] = Staircase(steps)
         self._entries, self._stairs = entries, stairs
@@ -130,6 +133,10 @@ class RightOfWay:
         entry = self._entries[robot]
         binding = self.why(robot)
         limit = self._cap(entry) if binding is None else binding.at
+        # Reserves never meet: nothing has been granted that must still be waited for.
+        assert binding is None or binding.at >= entry.granted, (
+            f"{binding} after a grant to {entry.granted}"
+        )
         entry.granted = max(entry.granted, limit)
         return entry.granted
 
@@ -159,6 +166,18 @@ class RightOfWay:
         stairs = self._stairs.get(robot, {})
         return tuple(s for other, each in stairs.items() for s in each.unmet(self._come(other)))
 
+    def overlapping(self, overlap: Overlap) -> tuple[tuple[str, str], ...]:
+        """Return the pairs of robots whose reserves meet, which must be none; looks at all pairs.
+
+        ``overlap`` tells whether two robots are in each other for some ticks of two stretches.
+        """
+        lines = sorted(self._entries.items())
+        return tuple(
+            (one, other)
+            for (one, a), (other, b) in combinations(lines, 2)
+            if overlap(a.commitment, (a.progress, a.granted), b.commitment, (b.progress, b.granted))
+        )
+
     def commitment(self, robot: str) -> Commitment:
         """Return what a robot is committed to."""
         return self._entries[robot].commitment
@@ -173,44 +192,48 @@ class RightOfWay:
         come = entry.course.skipped(entry.progress, self._now)
         return entry.course.stands_until(come + self.look_ahead)
 
-    def _found(
-        self, entries: Mapping[str, _Entry], one: str, other: str
-    ) -> tuple[Iterable[Precedence], Iterable[Precedence]]:
+    def _between(
+        self,
+        entries: Mapping[str, _Entry],
+        resumed: Mapping[str, Resumption],
+        one: str,
+        other: str,
+    ) -> tuple[Sequence[Precedence], Sequence[Precedence]]:
+        """Return what two robots wait for of each other.
+
+        What is known is kept where both paths are as they were; only new ways are looked at.
+        """
         a, b = entries[one], entries[other]
+        fresh = [r for r in (one, other) if r in resumed and not resumed[r].is_retimed]
+        if one in self._entries and other in self._entries and len(fresh) < 2:
+            kept = self._carried_over(one, other, resumed), self._carried_over(other, one, resumed)
+            if kept[0] is not None and kept[1] is not None:
+                if not fresh:
+                    return kept[0], kept[1]
+                done = [
+                    resumed[r].until if r in fresh else entries[r].progress for r in (one, other)
+                ]
+                found = self._conflicts(a.commitment, b.commitment, (done[0], done[1]))
+                return (*kept[0], *found[0]), (*kept[1], *found[1])
         return self._conflicts(a.commitment, b.commitment, (a.progress, b.progress))
 
-    def _retimed(
-        self, one: str, other: str, resumed: Mapping[str, Resumption]
-    ) -> tuple[tuple[Precedence, ...], tuple[Precedence, ...]] | None:
-        """Return a pair's precedences in new ticks, if their paths are as they were."""
-        if one not in self._entries or other not in self._entries:
-            return None
-        if not all(r not in resumed or resumed[r].is_retimed for r in (one, other)):
-            return None
-        both = []
-        for robot, against in ((one, other), (other, one)):
-            mine, its = resumed.get(robot), resumed.get(against)
-            steps = []
-            stairs = self._stairs.get(robot, {}).get(against)
-            for step in stairs.unmet(self._entries[against].progress) if stairs else ():
-                at = mine.at(step.at) if mine else step.at
-                passed = its.passed(step.passed) if its else step.passed
-                if at is None or passed is None or passed > at:
-                    return None
-                steps.append(Precedence(at, against, passed))
-            both.append(tuple(steps))
-        return both[0], both[1]
+    def _carried_over(
+        self, robot: str, other: str, resumed: Mapping[str, Resumption]
+    ) -> tuple[Precedence, ...] | None:
+        stairs = self._stairs.get(robot, {}).get(other)
+        steps = stairs.unmet(self._entries[other].progress) if stairs else ()
+        return carried_over(steps, resumed.get(robot), resumed.get(other))
 
-    @staticmethod
-    def _steps(
-        precedences: Iterable[Precedence], entry: _Entry, other: _Entry
-    ) -> tuple[Precedence, ...]:
-        """Return what is still to be met; in a wait, a robot may stand on."""
-        return pruned(
-            Precedence(entry.course.stands_until(each.at), each.other, each.passed)
-            for each in precedences
-            if each.passed > other.progress
-        )
+
+def _open_steps(
+    precedences: Iterable[Precedence], entry: _Entry, other: _Entry
+) -> tuple[Precedence, ...]:
+    """Return what is still to be met; in a wait, a robot may stand on."""
+    return pruned(
+        Precedence(entry.course.stands_until(each.at), each.other, each.passed)
+        for each in precedences
+        if each.passed > other.progress and entry.course.stands_until(each.at) < NEVER
+    )
 
 
 def _pairs(changed: Iterable[str], entries: Iterable[str]) -> Iterable[tuple[str, str]]:

@@ -107,7 +107,8 @@ class Node:
     def array(self) -> NDArray[np.float64]:
         """Return a list of such numbers as an array of shape ``(length,)``."""
         content = self._of(list, "a list of numbers")
-        if all(type(v) is float or (type(v) is int and abs(v) < 2**53) for v in content):
+        kinds = set(map(type, content))
+        if kinds <= {float} or (kinds <= {float, int} and max(map(abs, content)) < 2**53):
             array = np.array(content, dtype=np.float64)
             if (np.abs(array) <= LARGEST_FIGURE).all():
                 return array

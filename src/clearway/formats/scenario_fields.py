@@ -3,7 +3,7 @@
 import math
 from typing import Annotated, Any, Final
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import BeforeValidator, Field, PlainValidator, WithJsonSchema
 
 from clearway.formats.scenario_error import Misfit, closest
 from clearway.model import Footprint, Point, Polygon, Pose
@@ -230,3 +230,34 @@ Name = Annotated[
     WithJsonSchema({"type": "string", "minLength": 1, "maxLength": 200}),
 ]
 Seconds = Annotated[float, Field(ge=0.0, le=1e9)]
+Share = Annotated[float, Field(ge=0.0, le=1.0)]
+
+
+def _listed(value: object) -> object:
+    return value if isinstance(value, list) else [value]
+
+
+_FILE = {"type": "string", "minLength": 1}
+_LEVEL = {"type": "number", "minimum": 0, "maximum": 1}
+
+FileNames = Annotated[
+    list[Name],
+    BeforeValidator(_listed),
+    _schema(
+        "Order files (.csv, .jsonl), named from the scenario file's folder.",
+        "orders.csv",
+        _FILE,
+        {"type": "array", "items": _FILE},
+    ),
+]
+Levels = Annotated[
+    list[Share],
+    Field(min_length=1, max_length=2),
+    BeforeValidator(_listed),
+    _schema(
+        "Level of their batteries at the start in [0, 1], or the first robot's and the last's.",
+        [0.15, 1.0],
+        _LEVEL,
+        {"type": "array", "items": _LEVEL, "minItems": 1, "maxItems": 2},
+    ),
+]

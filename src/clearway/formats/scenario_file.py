@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from clearway.formats.atomic import ABSENT
+from clearway.formats.atomic import ABSENT, write_bytes
 from clearway.formats.order_file import read_orders
 from clearway.formats.scenario_checks import find_non_numbers, find_problems
 from clearway.formats.scenario_dump import FORMAT, dump_scenario
@@ -23,6 +23,7 @@ __all__ = [
     "FORMAT",
     "OrderFileError",
     "ScenarioError",
+    "copy_scenario",
     "dump_scenario",
     "parse_scenario",
     "read_scenario",
@@ -109,11 +110,26 @@ def _scenario(table: ScenarioTable, site: Site, file: str) -> Scenario:
     poses = {zone.name: zone.pose for zone in site.zones if zone.pose is not None}
     orders = [task.built(poses, tuple(task.after)) for task in table.tasks]
     known = {task.id: f"tasks[{i}] of {file}" for i, task in enumerate(table.tasks)}
-    for name in table.order_files():
+    for name in table.orders:
         listed = read_orders(Path(file).parent / name, idle, known)
         known |= {order.task.id: name for order in listed}
         orders += listed
     return replace(idle, orders=tuple(orders))
+
+
+def copy_scenario(source: Path, to: Path) -> None:
+    """Copy a scenario file so that the copy needs no other file.
+
+    The bytes stay as they are; but where it names order files, it is written anew with their
+    orders as tasks.
+    """
+    if source.resolve() == to.resolve():
+        return
+    raw = source.read_bytes()
+    if tomllib.loads(raw.decode("utf-8-sig")).get("orders"):
+        comment = "Tasks are those of the file that this was copied from, and of its order files."
+        raw = dump_scenario(read_scenario(source), comment).encode()
+    write_bytes(to, raw)
 
 
 def scenario_schema() -> dict[str, Any]:

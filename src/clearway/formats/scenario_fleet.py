@@ -5,8 +5,8 @@ from typing import Annotated
 from pydantic import AfterValidator, Field, WithJsonSchema, model_validator
 
 from clearway.formats.scenario_error import Misfit, closest
-from clearway.formats.scenario_fields import FootprintField, Name, PoseField
-from clearway.formats.scenario_table import Share, Table, ZoneKind
+from clearway.formats.scenario_fields import FootprintField, Levels, Name, PoseField, Share
+from clearway.formats.scenario_table import Table, ZoneKind
 from clearway.model import Battery, Limits, Robot, RobotType
 from clearway.model.robot import FOUR_WHEEL_MODES, Kinematics
 from clearway.motion import MODELS, models_for
@@ -158,22 +158,9 @@ class FleetTable(Table):
     row: Annotated[int, Field(ge=0)] | None = Field(
         default=None, description="Only zones in this row of the layout's cells, 0 at the bottom."
     )
-    energy: Share | list[Share] = Field(
-        default=1.0,
-        description="Level of their batteries at the start, or the first's and the last's.",
-        examples=[0.9, [0.15, 1.0]],
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> "FleetTable":
-        if isinstance(self.energy, list) and len(self.energy) != 2:
-            what = "is one level, or the first robot's and the last's"
-            raise Misfit(what, "write 0.9 or [0.15, 1.0]", self.energy, ("energy",))
-        return self
+    energy: Levels = Field(default=[1.0])
 
     def level(self, i: int) -> float:
         """Return the energy of robot ``i``, counted from 0."""
-        if not isinstance(self.energy, list):
-            return self.energy
-        first, last = self.energy
+        first, last = self.energy[0], self.energy[-1]
         return first + (last - first) * i / max(1, self.count - 1)

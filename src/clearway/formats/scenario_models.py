@@ -8,7 +8,7 @@ from pydantic.config import JsonDict
 from clearway.formats.atomic import ABSENT
 from clearway.formats.scenario_dump import FORMAT
 from clearway.formats.scenario_error import Misfit
-from clearway.formats.scenario_fields import Name
+from clearway.formats.scenario_fields import FileNames, Name
 from clearway.formats.scenario_fleet import FleetTable, RobotTable, RobotTypeTable
 from clearway.formats.scenario_simulation import SimulationTable
 from clearway.formats.scenario_site import SiteTable
@@ -70,11 +70,7 @@ class ScenarioTable(Table):
     robots: list[RobotTable] = Field(default=[])
     fleets: list[FleetTable] = Field(default=[])
     tasks: list[TaskTable] = Field(default=[])
-    orders: str | list[str] = Field(
-        default=[],
-        description="Order files (.csv, .jsonl), named from the scenario file's folder.",
-        examples=["orders.csv"],
-    )
+    orders: FileNames = Field(default=[])
     system: SystemTable = Field(default_factory=SystemTable)
     simulation: SimulationTable = Field(default_factory=SimulationTable)
 
@@ -84,7 +80,3 @@ class ScenarioTable(Table):
             mend = "add a robot: {id = 'r1', type = .., start = [x, y, theta]}"
             raise Misfit("the fleet is empty", mend, ABSENT, ("robots",))
         return self
-
-    def order_files(self) -> list[str]:
-        """Return the names of the order files."""
-        return [self.orders] if isinstance(self.orders, str) else self.orders

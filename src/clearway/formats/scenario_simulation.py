@@ -5,9 +5,9 @@ from typing import Annotated
 from pydantic import Field, model_validator
 
 from clearway.formats.scenario_error import Misfit
-from clearway.formats.scenario_fields import Name, Seconds
+from clearway.formats.scenario_fields import Name, Seconds, Share
 from clearway.formats.scenario_site import ObstacleTable
-from clearway.formats.scenario_table import Load, Share, Table, ZoneKind, require_one
+from clearway.formats.scenario_table import Load, Table, ZoneKind, require_one
 from clearway.model import Disturbances, Draw, OrderStream, Simulation, Surprise
 
 PerHour = Annotated[float, Field(gt=0.0, le=1e6)]

@@ -9,6 +9,8 @@ from clearway.formats.scenario_fields import DiscField, Name, PolygonField, Pose
 from clearway.formats.scenario_table import Table, ZoneKind, require_one
 from clearway.model import Layout, Obstacle, Site, Zone
 
+MOST_SHELVES = 100_000
+
 
 class ObstacleTable(Table):
     """A fixed obstacle: one of polygon, disc and wall."""
@@ -80,6 +82,14 @@ class LayoutTable(Table):
     cell: Annotated[float, Field(gt=0.0, le=100.0)] = Field(
         default=Layout("").cell, description="Side of a cell (m)."
     )
+
+    @model_validator(mode="after")
+    def _check(self) -> "LayoutTable":
+        shelves = 2 * self.bands * sum(self.blocks)
+        if shelves > MOST_SHELVES:
+            what = f"makes {shelves} places for shelves, more than {MOST_SHELVES}"
+            raise Misfit(what, "lower bands, or the lengths of blocks", self.bands, ("bands",))
+        return self
 
     def built(self) -> Layout:
         """Return the layout."""

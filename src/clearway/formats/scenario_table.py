@@ -1,14 +1,13 @@
 """What all tables of a scenario file have in common."""
 
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import BaseModel, ConfigDict, model_validator
 
 from clearway.formats.scenario_error import Misfit, closest
 
 Load = Literal["pick", "drop"]
 ZoneKind = Literal["shelf", "station", "charger", "parking", "lane", "one_way", "speed", "closed"]
-Share = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
 class Table(BaseModel):

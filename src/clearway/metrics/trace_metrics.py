@@ -87,6 +87,8 @@ class TraceMetrics:
         Orders done late, or open though they are due.
     utilisation, wait_share
         Means of the robots' shares.
+    pickups
+        How often a robot got something on board; where none ever did, all travel is empty.
     empty_share
         Part of ``distance`` driven with nothing on board on trips for orders.
     waits, waits_for_robots
@@ -110,6 +112,7 @@ class TraceMetrics:
     waiting: float
     wait_share: float
     distance: float
+    pickups: int
     empty: float
     empty_share: float
     energy_used: float
@@ -149,6 +152,7 @@ def trace_metrics(trace: Trace) -> TraceMetrics:
         waiting=sum(each.waiting for each in per_robot),
         wait_share=sum(each.wait_share for each in per_robot) / count,
         distance=distance,
+        pickups=sum(len(spans) for spans in loaded_spans(trace, end).values()),
         empty=empty,
         empty_share=empty / distance if distance else 0.0,
         energy_used=sum(each.energy_used for each in per_robot),

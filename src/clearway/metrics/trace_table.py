@@ -28,7 +28,7 @@ def _rows(metrics: TraceMetrics) -> list[tuple[str, str]]:
         *rows,
         ("utilisation", f"{_percent(metrics.utilisation)} of robot time on trips"),
         ("waiting", _waiting(metrics)),
-        ("distance", f"{metrics.distance:.0f} m, {_percent(metrics.empty_share)} of it empty"),
+        ("distance", _distance(metrics)),
         ("energy", _energy(metrics)),
         (
             "decisions",
@@ -51,6 +51,11 @@ def _waiting(metrics: TraceMetrics) -> str:
         f"{_percent(metrics.wait_share)} of robot time, {metrics.waiting:.0f} s; {metrics.waits} "
         f"waits, {metrics.waits_for_robots} for other robots"
     )
+
+
+def _distance(metrics: TraceMetrics) -> str:
+    empty = f", {_percent(metrics.empty_share)} of it empty" if metrics.pickups else ""
+    return f"{metrics.distance:.0f} m{empty}"
 
 
 def _energy(metrics: TraceMetrics) -> str:

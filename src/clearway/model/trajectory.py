@@ -138,7 +138,7 @@ class Trajectory:
     def part(self, begin: int, end: int) -> "Trajectory":
         """Return what happens between two ticks, without its stops; pieces are cut there."""
         low = bisect_right(self.timing, begin, key=lambda span: span[1])
-        high = bisect_left(self.timing, end, key=lambda span: span[0]) if begin < end else low
+        high = bisect_left(self.timing, end, key=lambda span: span[0]) if end > begin else low
         pieces, timing = [], []
         for piece, (first, last) in zip(self.pieces[low:high], self.timing[low:high], strict=True):
             since, until = max(first, begin), min(last, end)

@@ -34,7 +34,8 @@ class TripSpan:
 def trip_spans(trace: Trace) -> tuple[TripSpan, ...]:
     """Return all trips by robot and time.
 
-    A trip begins with the decision that commits a robot to it. It ends when the robot has left
+    A trip begins with the decision that commits a robot to it, unless that expects no visits
+    (``arrive`` is empty). It ends when the robot has left
     as many visits as the decision expects (``arrive``; one where it does not say), when its
     order has failed or is called off, with the robot's next trip, or with the trace.
     """
@@ -58,7 +59,9 @@ def trip_spans(trace: Trace) -> tuple[TripSpan, ...]:
         if kind == "decision" and robot and event.get("outcome", "committed") == "committed":
             if robot in running:
                 close(robot, t, False)
-            running[robot] = event, len(event.get("arrive") or (None,))
+            arrive = event.get("arrive")
+            if arrive != []:  # else it has nothing to visit any more
+                running[robot] = event, len(arrive or (None,))
         elif kind == "visit" and event["state"] == "left" and robot in running:
             decision, missing = running[robot]
             running[robot] = decision, missing - 1

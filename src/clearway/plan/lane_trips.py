@@ -100,7 +100,7 @@ class LaneTrips:
         for robot in robots:
             self._place(robot)
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         """Commit a robot to drive to its visit's endpoint; others may be made to wait for it."""
         self.changed = ()
         if refusal := self._refusal(trip):
@@ -108,7 +108,7 @@ class LaneTrips:
         me = self._number[trip.robot]
         old = self._committed[trip.robot]
         start, goal = old.trajectory.final_pose, trip.visits[0].pose
-        ready = max(now, old.served)
+        ready = max(now + lead, old.served)
         way = self._by_rules(me, start, goal, ready, now)
         if way is None:
             granted, limit = now + self._notice, LIMIT * effort
@@ -136,7 +136,7 @@ class LaneTrips:
         """Return what a robot is committed to; standing at its start before its first trip."""
         return self._committed[robot]
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         for robot, trajectory in trajectories.items():
             old = self._committed[robot]
@@ -144,7 +144,7 @@ class LaneTrips:
             self._committed[robot] = replace(old, trajectory=trajectory, waits=waits)
             self._holds.put(self._number[robot], stays_of(self.grid, trajectory))
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle at tick ``now``; return the robots whose motion runs into it.
 
         Each drives to its goal another way from where it can stop, against the lanes if need be,
@@ -152,7 +152,7 @@ class LaneTrips:
         whose way it then is are committed anew likewise.
         """
         self.changed = ()
-        detours = LaneDetours(self._ways, self._committed, self._loaded, now, self._notice, LIMIT)
+        detours = LaneDetours(self._ways, self._committed, self._loaded, now, max(lead, self._notice), LIMIT)
         return detours(obstacle)
 
     def route_length(self, start: Cell, goal: Cell) -> float:

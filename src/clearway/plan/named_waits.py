@@ -35,7 +35,10 @@ def named_waits(
 
 
 def retimed_waits(old: Commitment, trajectory: Trajectory) -> tuple[Wait, ...]:
-    """Return a commitment's waits at the times of a retimed trajectory: each ends as it drives on."""
+    """Return a commitment's waits at the times of a retimed trajectory.
+
+    Each ends as the robot drives on.
+    """
     begins = dict(zip((p.id for p in trajectory.pieces), trajectory.timing, strict=True))
     before = dict(zip((t[0] for t in old.trajectory.timing), old.trajectory.pieces, strict=True))
     waits = []
@@ -91,6 +94,6 @@ def _named(
         if met:
             names = tuple(ids[one.robot] for one in met)
             place = f"({met[0].at.x:.1f}, {met[0].at.y:.1f})"
-            told = f"going on at {to_seconds(end - earlier):.1f} s it would meet {' and '.join(names)} "
-            return Wait(begin, end, names, told + f"near {place}")
+            told = f"going on at {to_seconds(end - earlier):.1f} s it would meet "
+            return Wait(begin, end, names, f"{told}{' and '.join(names)} near {place}")
     return Wait(begin, end, (), "the search found no way that begins sooner")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from clearway import _core
 from clearway.model import LOAD_CHANGE, Piece, Pose, RobotType, Site, Visit, to_ticks, wrap
 from clearway.plan.native_team import free_tables, native_model
-from clearway.world.obstacles import native_obstacles
+from clearway.world.obstacles import native_body, native_obstacles
 
 Motion = tuple[tuple[Piece, ...], tuple[tuple[int, int], ...]]  # pieces and their timing
 
@@ -30,6 +30,13 @@ class NativeType:
             if known.name == name and known.is_moving:
                 return i
         return -1
+
+    def is_clear(self, statics: Sequence[_core.Statics], pose: Pose) -> bool:
+        """Whether it can stand at a pose, loaded or not, by what `statics` returned for a site."""
+        bodies = (native_body(self.type.shape(loaded)) for loaded in (False, True))
+        return all(
+            s.gap(b, _core.Pose(*pose)) >= 0.0 for s, b in zip(statics, bodies, strict=False)
+        )
 
     def statics(self, site: Site) -> list[_core.Statics]:
         """Return what stands on a site in the way of each of its bodies."""

@@ -17,8 +17,8 @@ class RouteSearch:
 
     Deviations
     ----------
-    Four neighbours: the paper says eight, but measures distance as Manhattan does, and on its
-    lanes no diagonal step has both its corners free.
+    Four neighbours: the paper says eight, but measures distance as Manhattan does, and along its
+    bidirectional channels no diagonal step leads the right way round both its corners.
     """
 
     def __init__(self, grid: LaneGrid, step_ticks: int, turn_ticks: int) -> None:

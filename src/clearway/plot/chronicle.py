@@ -51,10 +51,10 @@ class Diary:
         index = bisect_right(self.trips, time, key=lambda trip: trip.start) - 1
         return self.trips[index] if index >= 0 and time < self.trips[index].end else None
 
-    def next_visit(self, time: float) -> Span | None:
-        """Return the visit that it makes, or makes next."""
-        index = bisect_right(self.visits, time, key=lambda visit: visit.end)
-        return self.visits[index] if index < len(self.visits) else None
+    def last_trip(self, time: float) -> Span | None:
+        """Return the trip that has ended last."""
+        index = bisect_right(self.trips, time, key=lambda trip: trip.end) - 1
+        return self.trips[index] if index >= 0 else None
 
 
 @dataclass

@@ -7,10 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from clearway.metrics.motion import DRIVE, TURN, runs
+from clearway.metrics.motion import REST, TURN, runs
 from clearway.model import Track
 
 Event = Mapping[str, Any]
+
+# A turn on the way that is over sooner (s) is a part of the drive.
+_SHORT = 0.05
 
 
 class Span(NamedTuple):
@@ -52,16 +55,12 @@ def doings(
     told
         The robot's events by kind.
     """
-    spells = runs(track)
-    starts = [float(track.t[run.first]) for run in spells]
-    moves = {
-        kind: [
-            Span(start, float(track.t[run.last]), {})
-            for start, run in zip(starts, spells, strict=True)
-            if run.kind == number
-        ]
-        for kind, number in (("drive", DRIVE), ("turn", TURN))
-    }
+    moves: dict[str, list[Span]] = {"drive": [], "turn": []}
+    for run in runs(track):
+        start, end = float(track.t[run.first]), float(track.t[run.last])
+        if run.kind != REST:
+            is_turn = run.kind == TURN and end - start >= _SHORT
+            moves["turn" if is_turn else "drive"].append(Span(start, end, {}))
     begins = sorted(s.start for spans in moves.values() for s in spans)
     waits = _until_it_moves(told.get("wait", ()), begins, duration)
     refused = [

@@ -7,7 +7,7 @@ from typing import Any
 
 from clearway.plot.chronicle import Chronicle
 from clearway.plot.doings import Doing, Event
-from clearway.plot.told import of_doing, of_hold, of_trip
+from clearway.plot.told import of_doing, of_hold, of_rest, of_trip
 
 # In one or two words, for what is a root as well.
 STATES = {
@@ -143,7 +143,7 @@ def _link(
     trip = diary.trip(time)
     order = trip.event.get("order") if trip else None
     decisions = chronicle.decisions.get(order, []) if order else []
-    lines: list[str] = []
+    lines = of_rest(diary.last_trip(time))
     chosen: tuple[Event, ...] = ()
     if trip:
         lines = of_trip(trip, chronicle.orders.get(order, []) if order else [], decisions)

@@ -4,9 +4,12 @@ from clearway.metrics import TraceMetrics
 from clearway.plot.sentences import clock
 
 
-def key_figures(metrics: TraceMetrics, violations: int) -> list[tuple[str, str, str]]:
-    """Return the figures in the order of the page; those that are not known are left out."""
-    cpu = metrics.decisions
+def key_figures(metrics: TraceMetrics, violations: int | None) -> list[tuple[str, str, str]]:
+    """Return the figures in the order of the page; those that are not known are left out.
+
+    None of them is a CPU time, so that equal runs have equal pages. ``violations`` is the number
+    of those that the judge found, if it was asked.
+    """
     failed = f", {metrics.orders_failed} failed" if metrics.orders_failed else ""
     found = [
         (
@@ -29,8 +32,7 @@ def key_figures(metrics: TraceMetrics, violations: int) -> list[tuple[str, str, 
         found.append(
             ("Tardiness", clock(metrics.tardiness), f"in all; orders late: {metrics.orders_late}")
         )
-    return [
-        *found,
+    found += [
         ("Utilisation", _percent(metrics.utilisation), "of robot time on trips"),
         (
             "Waiting",
@@ -49,16 +51,15 @@ def key_figures(metrics: TraceMetrics, violations: int) -> list[tuple[str, str, 
         ),
         (
             "Decisions",
-            str(cpu.count),
-            f"{cpu.refused} refused; {1e3 * cpu.cpu_median:.1f} ms CPU each (median)",
-        ),
-        (
-            "Violations",
-            str(violations),
-            "found by the judge" if violations else "the judge found nothing wrong",
+            str(metrics.decisions.count),
+            f"{metrics.decisions.refused} refused",
         ),
     ]
+    if violations is not None:
+        note = "found by the judge" if violations else "the judge found nothing wrong"
+        found.append(("Violations", str(violations), note))
+    return found
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.0f}\u202f%"
+    return f"{100.0 * share:.{0 if share == 0.0 or share >= 0.1 else 1}f}\u202f%"

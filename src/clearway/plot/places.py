@@ -1,5 +1,6 @@
 """Which places for shelves are taken, and by which shelf, as far as a trace tells."""
 
+from bisect import bisect_right
 from typing import NamedTuple
 
 from clearway.plot.chronicle import Chronicle
@@ -21,24 +22,23 @@ def shelf_places(chronicle: Chronicle) -> dict[str, list[Change]]:
     a shelf, nothing is known, and there are no places.
     """
     names = {zone.name for zone in chronicle.trace.site.zones_of("shelf")}
+    aboard: dict[str, set[str]] = {}
     changes: dict[str, list[Change]] = {}
-    for diary in chronicle.diaries.values():
-        aboard: set[str] = set()
-        for event in diary.loads:
-            now = set(event["objects"])
-            visits = [visit for visit in diary.visits if visit.start <= event["t"]]
-            place = visits[-1].event.get("place") if visits else None
-            if place in names:
-                time = float(event["t"])
-                left = sorted(aboard - now)
-                if left or now - aboard:
-                    changes.setdefault(place, []).append(Change(time, left[0] if left else None))
-            aboard = now
+    for event in chronicle.trace.of("load"):
+        robot, time, now = event["robot"], float(event["t"]), set(event["objects"])
+        before = aboard.get(robot, set())
+        aboard[robot] = now
+        visits = chronicle.diaries[robot].visits
+        index = bisect_right(visits, time, key=lambda visit: visit.start) - 1
+        place = visits[index].event.get("place") if index >= 0 else None
+        if place in names and now != before:
+            left = sorted(before - now)
+            changes.setdefault(place, []).append(Change(time, left[0] if left else None))
     if not changes:
         return {}
     found: dict[str, list[Change]] = {}
-    for name in names:
-        later = sorted(changes.get(name, []), key=lambda change: change.time)
+    for name in sorted(names):
+        later = changes.get(name, [])
         is_put_first = bool(later) and later[0].shelf is not None
         found[name] = [Change(0.0, None if is_put_first else name), *later]
     return found

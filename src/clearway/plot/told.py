@@ -100,6 +100,15 @@ def of_trip(trip: Span, order: Sequence[Event], decisions: Sequence[Event]) -> l
     return [*lines, way] if way else lines
 
 
+def of_rest(last: Span | None) -> list[str]:
+    """Tell what a robot without a trip has done last."""
+    if last is None:
+        return []
+    rest = last.event.get("rest")
+    goes = f"; it was to rest at {rest} then" if rest else ""
+    return [f"Has had no trip since {seconds(last.end)}{goes}."]
+
+
 def of_decision(decision: Event) -> str:
     """Tell what was chosen, why, and what the alternatives would have cost."""
     kind, chosen = decision["kind"], decision.get("chosen")

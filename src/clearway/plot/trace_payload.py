@@ -6,13 +6,13 @@ from typing import Any
 
 from clearway.plot.chronicle import Chronicle, Diary
 from clearway.plot.curves import curves
-from clearway.plot.doings import Doing, Event, Span
+from clearway.plot.doings import Doing, Event
 from clearway.plot.explain import STATES, causes_of
 from clearway.plot.palette import robot_colour
 from clearway.plot.payload import flat, modes_of, shape_of, site_of
 from clearway.plot.places import shelf_places
 from clearway.plot.thin import thin
-from clearway.plot.told import of_doing, of_hold, of_trip
+from clearway.plot.told import of_doing, of_hold, of_rest, of_trip
 
 
 def trace_payload(chronicle: Chronicle, figures: Sequence[Sequence[str]]) -> dict[str, Any]:
@@ -89,7 +89,7 @@ def _robot(chronicle: Chronicle, diary: Diary) -> dict[str, Any]:
             for visit in diary.visits
         ],
         "activities": [_activity(doing) for doing in diary.doings],
-        "trips": [_trip(chronicle, trip) for trip in diary.trips],
+        "trips": _trips(chronicle, diary),
         "energy": [
             [_ms(event["t"]) for event in diary.energy],
             [round(event["level"], 4) for event in diary.energy],
@@ -114,12 +114,19 @@ def _activity(doing: Doing) -> list[Any]:
     return [doing.kind, _ms(doing.start), _ms(doing.end), label, of_doing(doing), list(causes)]
 
 
-def _trip(chronicle: Chronicle, trip: Span) -> list[Any]:
-    order = trip.event.get("order")
-    told = chronicle.orders.get(order, []) if order else []
-    decisions = chronicle.decisions.get(order, []) if order else []
-    sentences = of_trip(trip, told, decisions)
-    return [_ms(trip.start), _ms(trip.end), trip.event.get("purpose"), order, sentences]
+def _trips(chronicle: Chronicle, diary: Diary) -> list[list[Any]]:
+    """Return begin, end, purpose, order and sentences; between trips without a purpose."""
+    rows: list[list[Any]] = []
+    ends = [*(trip.start for trip in diary.trips[1:]), chronicle.duration]
+    for trip, then in zip(diary.trips, ends[: len(diary.trips)], strict=True):
+        purpose, order = trip.event.get("purpose"), trip.event.get("order")
+        told = chronicle.orders.get(order, []) if order else []
+        decisions = chronicle.decisions.get(order, []) if order else []
+        sentences = of_trip(trip, told, decisions)
+        rows.append([_ms(trip.start), _ms(trip.end), purpose, order, sentences])
+        if trip.end < then:
+            rows.append([_ms(trip.end), _ms(then) + 1, None, None, of_rest(trip)])
+    return rows
 
 
 def _order(name: str, told: Sequence[Event], numbers: Mapping[str, int]) -> dict[str, Any]:

@@ -22,19 +22,19 @@ _BADGES = {
 
 
 def write_trace_report(
-    trace: Trace, metrics: TraceMetrics, path: Path, violations: int = 0
+    trace: Trace, metrics: TraceMetrics, path: Path, violations: int | None = None
 ) -> None:
     """Write the report of a run as one HTML file that loads nothing from anywhere.
 
     Parameters
     ----------
     violations
-        Number of those that the judge found.
+        Number of those that the judge found; ``None`` if it was not asked.
     """
     write_text(path, render_trace(trace, metrics, violations))
 
 
-def render_trace(trace: Trace, metrics: TraceMetrics, violations: int = 0) -> str:
+def render_trace(trace: Trace, metrics: TraceMetrics, violations: int | None = None) -> str:
     """Return the report's HTML."""
     happened = chronicle(trace)
     end = trace.events[-1] if trace.is_whole else {}
@@ -49,7 +49,7 @@ def render_trace(trace: Trace, metrics: TraceMetrics, violations: int = 0) -> st
         summary=_what_it_is(happened, metrics),
         banners=(
             banner("stop", _what_ended_it(happened, status)),
-            banner("fault", what_the_judge_says(violations, "run")),
+            banner("fault", what_the_judge_says(violations or 0, "run")),
         ),
     )
 

@@ -27,12 +27,19 @@ class TripPlanner(Protocol):
     one ends in a rest that no other crosses later (see "Planning for ever" in docs/design.md).
     """
 
-    def plan(self, trip: Trip, now: int, effort: int = 1) -> Commitment | Refusal:
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
         """Commit the robot to a trip, or change nothing and say why not.
 
-        Its motion is planned anew from the first moment at or after tick ``now`` at which its
-        services are done and a new motion may begin. ``effort`` multiplies the planner's own
-        limit on expansions: larger for trips that were refused before.
+        Parameters
+        ----------
+        now
+            Tick; what was driven before may be forgotten.
+        effort
+            Multiplies the planner's own limit on expansions: larger for trips that were refused
+            before.
+        lead
+            Its motion is planned anew from the first moment, so many ticks from now or later, at
+            which its services are done and a new motion may begin.
         """
         ...
 
@@ -50,11 +57,11 @@ class TripPlanner(Protocol):
         """What planning has come to so far: ``expansions``, and what else the planner counts."""
         ...
 
-    def retime(self, trajectories: Mapping[str, Trajectory]) -> None:
+    def retime(self, trajectories: Mapping[str, Trajectory], now: int) -> None:
         """Take over the same paths at other times, after delays; all robots' at once."""
         ...
 
-    def block(self, obstacle: Obstacle, now: int) -> tuple[str, ...]:
+    def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle at tick ``now``; return the robots whose motion runs into it.
 
         Each of those is committed anew to what can be kept of its trip, from its motion; the
@@ -200,12 +207,24 @@ class Told:
 
 @dataclass(frozen=True)
 class Decision:
-    """New commitments, why, and when to ask again at the latest (tick)."""
+    """New commitments, why, and when to ask again at the latest (tick).
+
+    Parameters
+    ----------
+    done, failed
+        Orders; those that failed with the reason.
+    diverted
+        Robots that an obstacle stood in the way of.
+    given_back
+        Orders that those could not go on with: they are open again.
+    """
 
     commitments: Mapping[str, Commitment] = field(default_factory=dict)
     told: Sequence[Told] = ()
     done: Sequence[str] = ()
     failed: Mapping[str, str] = field(default_factory=dict)
+    diverted: Sequence[str] = ()
+    given_back: Sequence[str] = ()
     wake: int | None = None
 
 

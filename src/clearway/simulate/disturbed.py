@@ -10,6 +10,7 @@ from clearway.model import (
     TICKS_PER_SECOND,
     Commitment,
     Disturbances,
+    Pose,
     Robot,
     Stop,
     Trajectory,
@@ -41,10 +42,12 @@ class _Mover:
 
     path: Trajectory
     rng: random.Random
+    told: Pose  # where what was driven has been told up to
     pace: float = 1.0
     progress: int = 0
     credit: float = 0.0  # part of a tick driven beyond the progress
     trip: Trip | None = None
+    commitment: Commitment | None = None
     waits: tuple[Wait, ...] = ()
     next_visit: int = 0
     is_served: bool = False  # whether the service of the next visit has begun
@@ -87,17 +90,20 @@ class Disturbed:
         self._movers: dict[str, _Mover] = {}
         for robot in robots:
             rng = random.Random(f"{seed}/disturbed/{robot.id}")
-            mover = _Mover(Trajectory(robot.id, robot.start), rng)
+            mover = _Mover(Trajectory(robot.id, robot.start), rng, robot.start)
             if rng.random() < disturbances.slow:
                 mover.pace = disturbances.slowness
             self._movers[robot.id] = mover
             self._draw_stop(mover)
+        standing = {id_: Commitment(id_, mover.path) for id_, mover in self._movers.items()}
+        self.commit(standing, 0)
 
     def commit(self, commitments: Mapping[str, Commitment], now: int) -> None:
         """Take over commitments; see `RobotMotion`."""
         self._executor.commit(commitments, now)
         for robot, commitment in commitments.items():
             mover = self._movers[robot]
+            mover.commitment = commitment
             mover.path, mover.waits = commitment.trajectory, commitment.waits
             if commitment.trip is not mover.trip:
                 mover.trip, mover.next_visit, mover.is_served = commitment.trip, 0, False
@@ -124,8 +130,7 @@ class Disturbed:
         """Return what a robot has driven since last asked, up to now."""
         mover = self._movers[robot]
         parts, mover.driven = mover.driven, []
-        if not parts:
-            return Trajectory(robot, mover.path.at(mover.progress))
+        start = mover.told
         pieces = []
         for number, part in enumerate(parts):
             first, last = part.path.timing[part.index]
@@ -133,17 +138,25 @@ class Disturbed:
                 (part.begin - first) / (last - first), (part.end - first) / (last - first)
             )
             pieces.append(replace(piece, id=number))
+        if pieces:
+            mover.told = pieces[-1].end
         timing = tuple((part.since, part.until) for part in parts)
-        return Trajectory(robot, pieces[0].start, tuple(pieces), timing)
+        return Trajectory(robot, start, tuple(pieces), timing)
 
     def expected(self, now: int) -> Mapping[str, Trajectory] | None:
         """Return everybody's paths at the times to expect, by which they are driven from now on."""
         if all(m.is_over or m.progress == now for m in self._movers.values()):
             return None
         paths = self._executor.projected(now)
+        retimed = {}
         for robot, path in paths.items():
             mover = self._movers[robot]
+            assert mover.commitment is not None
+            mover.commitment = retimed[robot] = replace(mover.commitment, trajectory=path, waits=())
             mover.path, mover.progress, mover.waits = path, now, ()
+        self._executor.commit(retimed, now)
+        for robot in paths:
+            self._executor.report(robot, now)
         return paths
 
     def _draw_stop(self, mover: _Mover) -> None:

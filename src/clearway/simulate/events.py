@@ -1,5 +1,6 @@
 """Events of a trace, as mappings that any recorder takes; times in seconds."""
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -92,7 +93,7 @@ def wait(
         "event": "wait",
         "t": to_seconds(now),
         "robot": robot,
-        "for": list(causes),
+        "for": list(causes) or ["plan"],
         "until": None if until is None else to_seconds(until),
         "because": because,
     }
@@ -127,7 +128,10 @@ def obstacle(now: int, name: str, found: Obstacle) -> Event:
 
 
 def outline(found: Obstacle) -> list[tuple[float, float]]:
-    """Return a polygon that an obstacle fills; a disc's has 32 corners on its circle."""
+    """Return a polygon that an obstacle fills; a disc's has 32 corners on its circle.
+
+    A wall has no thickness; its polygon is 1 mm thick.
+    """
     if found.polygon is not None:
         return [(x, y) for x, y in found.polygon]
     if found.disc is not None:
@@ -135,7 +139,10 @@ def outline(found: Obstacle) -> list[tuple[float, float]]:
         angles = np.arange(32) * (2.0 * np.pi / 32)
         return [(x + r * float(np.cos(a)), y + r * float(np.sin(a))) for a in angles]
     assert found.wall is not None
-    return [*found.wall, found.wall[0]]
+    (x0, y0), (x1, y1) = found.wall
+    length = math.hypot(x1 - x0, y1 - y0)
+    a, b = -0.5e-3 * (y1 - y0) / length, 0.5e-3 * (x1 - x0) / length
+    return [(x0 + a, y0 + b), (x0 - a, y0 - b), (x1 - a, y1 - b), (x1 + a, y1 + b)]
 
 
 def decision(now: int, told: Told) -> Event:
@@ -164,6 +171,29 @@ def decision(now: int, told: Told) -> Event:
         event["arrive"] = [to_seconds(stop.arrive) for stop in outcome.trajectory.stops]
     event["cpu_s"] = round(told.cpu_s, 6)
     return event
+
+
+def detour(now: int, trip: Trip | None, commitment: Commitment) -> Event:
+    """Return that an obstacle stood in a robot's way, and what it does now."""
+    goes_on = trip is not None and commitment.trip is trip
+    ahead = [s for s in commitment.trajectory.stops if s.leave > now] if goes_on else []
+    return {
+        "event": "decision",
+        "t": to_seconds(now),
+        "kind": "detour",
+        "robot": commitment.robot,
+        "order": trip.order if trip is not None and goes_on else None,
+        "purpose": trip.purpose if trip is not None and goes_on else "park",
+        "chosen": "goes on another way" if goes_on else "gives way",
+        "score": 0.0,
+        "alternatives": [],
+        "because": "an obstacle that nobody knew of stands in its way",
+        "outcome": "committed",
+        "route": _turning_points(commitment),
+        "rest": commitment.rest,
+        "arrive": [to_seconds(max(stop.arrive, now)) for stop in ahead],
+        "cpu_s": 0.0,
+    }
 
 
 def _turning_points(commitment: Commitment) -> list[list[float]]:

@@ -66,7 +66,8 @@ class SimulatedFleet:
         self._now, self._wake = 0, None
         self._open: set[str] = set()
         self._taken: set[str] = set()
-        self._assigned: set[str | None] = set()  # but not started
+        self._taken_up: set[str] = set()  # at least once
+        self._assigned: set[str] = set()  # but not started
         self._done, self._failed = 0, 0
         self._last_done = 0
         self._waited = 0
@@ -109,6 +110,14 @@ class SimulatedFleet:
             self._done += 1
             self._last_done = now
             self._record(events.order(now, id_, "done"))
+        for id_ in decision.given_back:
+            self._taken.discard(id_)
+            self._assigned.discard(id_)
+            reason = "given back: an obstacle bars the way"
+            self._record(events.order(now, id_, "released", reason=reason))
+        for robot in decision.diverted:
+            commitment = decision.commitments[robot]
+            self._record(events.detour(now, self._trips[robot], commitment))
         for told in decision.told:
             self._record(events.decision(now, told))
             trip = told.choice.trip
@@ -117,10 +126,13 @@ class SimulatedFleet:
         for id_, reason in decision.failed.items():
             self._open.discard(id_)
             self._failed += 1
+            self._take_up(id_)
             self._record(events.order(now, id_, "failed", reason=reason))
         for robot, commitment in decision.commitments.items():
             self._flush(robot)
             if commitment.trip is not self._trips[robot]:
+                if self._trips[robot] is not None:
+                    self._account(robot, now)
                 self._begin(robot, commitment.trip)
             self._rest_at[robot] = commitment.trajectory.end
         self._motion.commit(decision.commitments, now)
@@ -149,7 +161,7 @@ class SimulatedFleet:
         for robot in self._trips:
             self._flush(robot)
             if self._trips[robot] is not None:
-                self._account(robot)
+                self._account(robot, self._now)
         self._record(
             {
                 "event": "end",
@@ -204,7 +216,7 @@ class SimulatedFleet:
         self._record(events.visit(one.tick, robot, trip, one.visit, one.kind))
         if one.kind == "arrived":
             self._arrived[robot] = one.tick
-            if trip.order in self._assigned:
+            if trip.order is not None and trip.order in self._assigned:
                 self._assigned.discard(trip.order)
                 self._record(events.order(one.tick, trip.order, "started", robot=robot))
             return False
@@ -213,7 +225,7 @@ class SimulatedFleet:
         self._load(one.tick, trip, trip.visits[one.visit], last)
         if not last:
             return False
-        self._account(robot)
+        self._account(robot, one.tick)
         self._trips[robot] = None
         self._left_idle.append(robot)
         self._charge(one.tick, robot, trip)
@@ -244,11 +256,18 @@ class SimulatedFleet:
 
     def _take(self, trip: Trip) -> None:
         assert trip.order is not None
-        if trip.order not in self._taken:
-            self._taken.add(trip.order)
-            self._assigned.add(trip.order)
-            self._record(events.order(self._now, trip.order, "assigned", robot=trip.robot))
-            self._arriving.taken(trip.order, self._now)
+        if trip.order in self._taken:
+            return
+        self._taken.add(trip.order)
+        self._assigned.add(trip.order)
+        self._record(events.order(self._now, trip.order, "assigned", robot=trip.robot))
+        self._take_up(trip.order)
+
+    def _take_up(self, order: str) -> None:
+        """Tell where orders come from, once, that one is no longer waiting."""
+        if order not in self._taken_up:
+            self._taken_up.add(order)
+            self._arriving.taken(order, self._now)
 
     def _begin(self, robot: str, trip: Trip | None) -> None:
         self._trips[robot] = trip
@@ -271,10 +290,10 @@ class SimulatedFleet:
         if battery is not None:
             self._level[robot] = max(0.0, self._level[robot] - to_seconds(moved) / battery.capacity)
 
-    def _account(self, robot: str) -> None:
+    def _account(self, robot: str, end: int) -> None:
         """Count the standing of a trip that was not at a visit."""
-        at_visits = self._at_visits[robot] + self._now - self._arrived.get(robot, self._now)
-        lasted = self._now - self._since[robot]
+        at_visits = self._at_visits[robot] + end - self._arrived.get(robot, end)
+        lasted = end - self._since[robot]
         self._waited += max(0, lasted - self._moved[robot] - at_visits)
 
     def _find(self) -> tuple[Obstacle, ...]:

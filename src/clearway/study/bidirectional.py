@@ -90,8 +90,9 @@ def cells(scale: Scale) -> Sequence[Cell]:
 
 def row(cell: Cell) -> Row:
     """Return what came of one batch: run, judged on true bodies, and bounded from below."""
+    from clearway.assign import ShelfParams
     from clearway.assign.yard_bound import makespan_bound
-    from clearway.metrics.trace_metrics import to_json, trace_metrics
+    from clearway.metrics.trace_metrics import trace_metrics
     from clearway.model import Layout
     from clearway.systems.simulate import run_through_time
     from clearway.validate.trace_judge import validate_trace
@@ -110,11 +111,12 @@ def row(cell: Cell) -> Row:
         turn_seconds=more.pop("turn_seconds", 0.0),
         settings={**METHODS[settings["method"]], **more},
     )
+    params = ShelfParams(residence=more.get("residence", 10.0))
     begin = time.process_time()
     run = run_through_time(scenario)
     spent = time.process_time() - begin
     violations = validate_trace(run.trace)
-    figures = to_json(trace_metrics(run.trace))
+    figures = trace_metrics(run.trace)
     end = run.trace.events[-1]
     return {
         "status": run.status,
@@ -122,9 +124,11 @@ def row(cell: Cell) -> Row:
         "orders_done": end["orders_done"],
         "distance": end["distance"],
         "waiting": end["waiting"],
-        "empty_distance": figures["empty_distance"],
-        "counters": dict(run.counters),
-        "lower_bound": makespan_bound(scenario),
+        "empty": figures.empty,
+        "service": round(sum(each.service for each in figures.per_robot), 3),
+        "conflicts": {k: n for k, n in run.counters.items() if " in " in k},
+        "fallbacks": run.counters["fallbacks"],
+        "lower_bound": makespan_bound(scenario, params),
         "violations": [str(violation) for violation in violations],
         "run_s": round(spent, 3),
     }

@@ -100,9 +100,9 @@ def _line(
         paper,
         f"{above.value:.1f}",
         f"{fmean(row['distance'] / row['orders'] for row in found):.1f}",
-        f"{fmean(100.0 * row['empty_distance'] / row['distance'] for row in found):.0f}",
+        f"{fmean(100.0 * row['empty'] / row['distance'] for row in found):.0f}",
         f"{fmean(row['waiting'] for row in found):.0f}",
-        f"{fmean(row['counters'].get('conflicts', 0) for row in found):.0f}",
+        f"{fmean(sum(row['conflicts'].values()) for row in found):.0f}",
     )
 
 
@@ -194,7 +194,7 @@ def _clean(rows: Sequence[Row]) -> Finding:
 
 def _shorter(rows: Sequence[Row]) -> Finding:
     claim = "Paper, Figs. 17 to 19: two ways are faster than one at every point"
-    worst: list[tuple[float, str]] = []
+    found: list[tuple[Estimate, str]] = []
     for name, along in EXPERIMENTS.items():
         here = _pick(rows, experiment=name, method="paper")
         for place in _places(here, along):
@@ -202,12 +202,12 @@ def _shorter(rows: Sequence[Row]) -> Finding:
                 at = {along: place}
                 pairs = _paired(_pick(here, layout=BI, **at), _pick(here, layout=layout, **at))
                 if len(pairs[0]) > 1:
-                    estimate = saving(*pairs)
-                    worst.append((estimate.low, f"{name}, {place} {along}, {layout}: {estimate} %"))
-    if not worst:
+                    found.append((saving(*pairs), f"{name}, {place} {along}, {layout}"))
+    if not found:
         return Finding(claim, "no pairs", None)
-    low, told = min(worst)
-    return Finding(claim, f"least saving of {len(worst)} points: {told}", low > 0.0)
+    worst, where = min(found, key=lambda one: one[0].low)
+    told = f"least saving of {len(found)} points: {where}: {worst} %"
+    return Finding(claim, told, worst.low > 0.0 if worst.excludes_zero else None)
 
 
 def _quarter(rows: Sequence[Row]) -> Finding:

@@ -14,6 +14,7 @@ from clearway.execute import CellConflicts, RightOfWay
 from clearway.model import Scenario
 from clearway.plan import LaneTrips
 from clearway.protocols import Dispatcher, Executor
+from clearway.simulate.disturbed import PERIOD
 from clearway.systems.settings import SettingsError
 from clearway.world.channels import RULES, lane_grid
 from clearway.world.dynamic_map import DynamicMap
@@ -78,7 +79,7 @@ def bidirectional(settings: BidirectionalSettings) -> Lifelong:
         return NearestIdle(scenario, params, by_route)
 
     def execute(scenario: Scenario) -> Executor:
-        return RightOfWay(CellConflicts(grid_of(scenario)))
+        return RightOfWay(CellConflicts(grid_of(scenario)), PERIOD)
 
     return Lifelong(
         name="bidirectional",
@@ -102,5 +103,21 @@ def _unsupported(scenario: Scenario) -> tuple[str, ...]:
         f"task {order.task.id}: has visits of its own; system B fetches shelves (fetches = 'g1')"
         for order in scenario.orders
         if order.task.fetches is None
+    ]
+    reasons += [
+        f"stream {stream.name}: has visits of its own; system B fetches shelves (fetch = true)"
+        for stream in scenario.simulation.streams
+        if not stream.fetch
+    ]
+    reasons += [
+        f"task {order.task.id}: is kept for {order.task.robot}, but system B sends the nearest; "
+        "drop robot"
+        for order in scenario.orders
+        if order.task.robot is not None
+    ]
+    reasons += [
+        f"task {order.task.id}: waits for other tasks, which system B does not; drop after"
+        for order in scenario.orders
+        if order.after
     ]
     return tuple(reasons)

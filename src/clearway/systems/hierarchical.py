@@ -77,6 +77,9 @@ class HierarchicalSettings:
     weight
         Factor on the heuristic; larger plans faster and drives longer. Of ``adaptive`` it is
         the largest xi (eq. 23); ``bounded`` and ``optimal`` know none.
+    dispatch
+        Of orders that arrive, which a robot takes next: the ``nearest``, away from others, or
+        the ``oldest``. The other settings are for planning at once.
     """
 
     assign: Literal[
@@ -103,6 +106,7 @@ class HierarchicalSettings:
     factor: float = 1.05
     objective: Literal["time", "makespan", "paper"] = "time"
     weight: float = 1.1
+    dispatch: Literal["nearest", "oldest"] = "nearest"
 
     def __post_init__(self) -> None:
         for name in ("max_distance", "total_distance", "turning", "tardiness"):

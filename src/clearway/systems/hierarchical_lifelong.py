@@ -2,11 +2,14 @@
 
 from dataclasses import asdict
 
+from clearway.assign import NearestOrder, OldestOrder
 from clearway.coordinate import Lifelong
 from clearway.execute import BodyConflicts, RightOfWay
-from clearway.model import Scenario
-from clearway.plan.tail_trips import TailTrips
+from clearway.model import Problem, Scenario
+from clearway.plan import TailTrips
+from clearway.plan.prioritised import unplannable
 from clearway.protocols import Dispatcher, Executor
+from clearway.simulate.disturbed import PERIOD
 from clearway.systems.hierarchical import HierarchicalSettings
 
 
@@ -17,18 +20,29 @@ def hierarchical_lifelong(settings: HierarchicalSettings) -> Lifelong:
     """
 
     def dispatch(scenario: Scenario) -> Dispatcher:
-        from clearway.assign.nearest_order import NearestOrder
-
-        return NearestOrder(scenario, oldest=settings.dispatch == "oldest")
+        return (OldestOrder if settings.dispatch == "oldest" else NearestOrder)(scenario)
 
     def execute(scenario: Scenario) -> Executor:
         types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
-        return RightOfWay(BodyConflicts(types))
+        return RightOfWay(BodyConflicts(types), PERIOD)
 
     return Lifelong(
         name="hierarchical",
         dispatch=dispatch,
         trips=TailTrips,
         execute=execute,
+        unsupported=_unsupported,
         parameters=asdict(settings),
     )
+
+
+def _unsupported(scenario: Scenario) -> tuple[str, ...]:
+    """Return what in a scenario system A cannot take when orders arrive."""
+    tours = {robot.id: () for robot in scenario.robots}
+    reasons = unplannable(Problem(scenario.site, scenario.robot_types, scenario.robots, tours))
+    fetching = [order.task.id for order in scenario.orders if order.task.fetches is not None]
+    fetching += [stream.name for stream in scenario.simulation.streams if stream.fetch]
+    if fetching:
+        what = f"{fetching[0]}: fetches a shelf; system A carries none, give it visits instead"
+        reasons = (*reasons, what)
+    return reasons

@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 
-from clearway.coordinate import Coordinator, Lifelong, Unsupported
+from clearway.coordinate import Coordinator, CoordinatorParams, Lifelong, Unsupported
 from clearway.model import Scenario, Trace
 from clearway.protocols import Budget, TripPlanner
 from clearway.simulate.arrivals import Arrivals
-from clearway.simulate.disturbed import Disturbed
+from clearway.simulate.disturbed import PERIOD, Disturbed
 from clearway.simulate.events import Event, Record
 from clearway.simulate.fleet import SimulatedFleet, Tell
 from clearway.simulate.motion import RobotMotion
@@ -113,7 +113,11 @@ def run_through_time(
     fleet = SimulatedFleet(
         scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
     )
-    coordinator = Coordinator(scenario.robots, chosen.dispatch(scenario), trips, cpu=clock)
+    # Robots that may be late have been granted what they do within a period.
+    lead = PERIOD if scenario.simulation.disturbances else 0
+    coordinator = Coordinator(
+        scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
+    )
     is_spent = _is_spent(budget or Budget(), clock, trips)
     status = None
     try:
@@ -133,6 +137,10 @@ def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
     disturbances = scenario.simulation.disturbances
     if not disturbances:
         return OnTime(scenario.robots)
+    for robot in scenario.robots:
+        if scenario.type_of(robot).limits.has_ramps:
+            what = f"robot type {robot.type}: has limits on acceleration"
+            raise Unsupported(f"{what}, which robots that stop at random do not keep; remove them")
     return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
 
 

@@ -10,8 +10,8 @@ from clearway.validate.violation import Violation
 NEXT = {
     None: ("released",),
     "released": ("assigned", "failed", "cancelled"),
-    "assigned": ("started", "failed", "cancelled"),
-    "started": ("done", "failed", "cancelled"),
+    "assigned": ("started", "released", "failed", "cancelled"),
+    "started": ("done", "released", "failed", "cancelled"),
 }
 STATES = ("released", "assigned", "started", "failed", "cancelled", "done")
 NOWHERE = (0.0, 0.0)
@@ -67,8 +67,10 @@ def _step(course: _Course, event: Mapping[str, Any]) -> list[str]:
         course.robot = robot
     elif robot is not None and course.robot not in (None, robot):
         texts.append(f"is {state} by {robot}, though {course.robot} has it")
-    # What is out of turn is told once: an order never goes back.
-    if before is None or STATES.index(state) > STATES.index(before):
+    # What is out of turn is told once: an order goes back only where its robot gives it back.
+    if state == "released" and before in ("assigned", "started"):
+        course.state, course.robot, course.made = state, None, 0
+    elif before is None or STATES.index(state) > STATES.index(before):
         course.state = state
     return texts
 
@@ -76,7 +78,7 @@ def _step(course: _Course, event: Mapping[str, Any]) -> list[str]:
 def _visit(course: _Course, event: Mapping[str, Any]) -> list[str]:
     robot = event["robot"]
     if event["state"] == "left":
-        course.made += course.at == robot
+        course.made += 1
         course.at = None
         return []
     course.at = robot

@@ -60,7 +60,6 @@ def _entries(
     during = cut.pick((cut.t0 >= closure.begin - 1e-9) & (cut.t1 <= closure.end + 1e-9))
     # Who is inside at second 0 of what is judged may leave.
     shifted = replace(during, t0=during.t0 - closure.begin, t1=during.t1 - closure.begin)
-    shifted.t0[:1] = 0.0
     kind = trace.robot_types[robot.type]
     return [
         replace(violation, time=violation.time + closure.begin)

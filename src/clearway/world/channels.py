@@ -42,11 +42,11 @@ RULES = {
     "one_way": Rule(breadth=2, both_ways=False, right_wall=True),
 }
 PAPER = Layout("bidirectional")
-# Shelves, stations and chargers at the paper's size.
+# Shelves, stations, chargers, width and height (cells) at the paper's size.
 PAPER_COUNTS = {
-    "bidirectional": (406, 30, 33),
-    "compact": (406, 22, 32),
-    "one_way": (406, 30, 35),
+    "bidirectional": (406, 30, 33, 36, 31),
+    "compact": (406, 22, 32, 34, 23),
+    "one_way": (406, 30, 35, 38, 31),
 }
 
 
@@ -215,7 +215,11 @@ def _assert_facts(layout: Layout, grid: LaneGrid) -> None:
     rule = RULES[layout.rule]
     if (layout.blocks, layout.bands) == (PAPER.blocks, PAPER.bands):
         counts = tuple(len(grid.of_kind(kind)) for kind in ("shelf", "station", "charger"))
-        assert counts == PAPER_COUNTS[layout.rule], counts
+        assert counts + grid.size == PAPER_COUNTS[layout.rule], counts
+    # Every shelf opens onto one horizontal channel, below or above it.
+    x, y = np.array([point.cell for point in grid.of_kind("shelf")]).T
+    channel = grid.region == HORIZONTAL
+    assert (channel[y - 1, x] ^ channel[y + 1, x]).all()
     left_out = cut_off(grid)
     if not rule.right_wall:
         # Nothing leads round the far end of the last block: robots turn round in aprons there.

@@ -19,7 +19,10 @@ from clearway.model import (
 from clearway.world.fleets import FLEETS
 from clearway.world.shapes import body_shape
 from clearway.world.warehouse import (
+    BODY_LENGTH,
+    BODY_WIDTH,
     HEIGHT,
+    SHELF_DEPTH,
     SHELF_LEFT,
     SHELF_LENGTH,
     SHELF_ROWS,
@@ -27,8 +30,7 @@ from clearway.world.warehouse import (
     warehouse_site,
 )
 
-WALL_BAYS = 24  # along each outer wall
-STATIONS = 8
+WALL_ROWS = tuple(round(2.4 * (j + 1), 9) for j in range(24))  # of bodies along an outer wall
 PICK_GAP = 0.3  # between two pick places (m)
 MOST_TRIES = 20_000
 
@@ -45,10 +47,11 @@ def lifelong_warehouse(
 ) -> Scenario:
     """Return a fleet in its bays, and orders from a pick place between shelves to a station.
 
-    Bays stand across along both outer walls, 24 each, with 0.4 m between bodies, and along the
-    walls of the two end aisles, three in each half. Eight stations stand in line in the middle
-    cross aisle, 3 m apart, with 4 m on either side. Pick places lie in the aisles of 4.5 m, in line
-    with them for cars, so that nobody passes who stands at one.
+    Eight stations stand across along the right wall. Bays stand likewise, 24 along the left wall
+    and two between any two stations, with 0.4 m between bodies; five in line in the middle cross
+    aisle, and four along the wall of each half of the end aisles. Pick places lie in the aisles of
+    4.5 m, 0.15 m from a shelf and in line with it, where another car can just pass; carriers
+    also stand across, where none can.
 
     Parameters
     ----------
@@ -70,9 +73,7 @@ def lifelong_warehouse(
         raise ValueError(f"fleet: cars or carriers drive in the warehouse, not {fleet!r}")
     kind = FLEETS[fleet][0]
     bays = _spread(_bay_centres(), robots)
-    stations = [
-        Pose(50.0, y, math.pi / 2.0 * (-1) ** i) for i, y in enumerate(SHELF_ROWS[:STATIONS])
-    ]
+    stations = [Pose(WIDTH - 1.7, y, math.pi) for y in WALL_ROWS[1::3]]
     headings = (0.0, math.pi) if fleet == "cars" else (0.0, math.pi, math.pi / 2, -math.pi / 2)
     places = {
         "parking": bays,
@@ -118,11 +119,12 @@ def _zone(name: str, what: str, kind: RobotType, pose: Pose) -> Zone:
 
 
 def _bay_centres() -> list[Pose]:
-    rows = [round(HEIGHT / (WALL_BAYS + 1) * (j + 1), 9) for j in range(WALL_BAYS)]
-    bays = [Pose(1.7, y, 0.0) for y in rows] + [Pose(WIDTH - 1.7, y, math.pi) for y in rows]
+    bays = [Pose(1.7, y, 0.0) for y in WALL_ROWS]
+    bays += [Pose(WIDTH - 1.7, y, math.pi) for j, y in enumerate(WALL_ROWS) if j % 3 != 1]
+    bays += [Pose(50.0, y, math.pi / 2.0) for y in SHELF_ROWS[::2]]
     for left in SHELF_LEFT:
-        for share in (1, 2, 3):
-            x = left + SHELF_LENGTH * share / 4.0
+        for share in (1, 2, 3, 4):
+            x = left + SHELF_LENGTH * share / 5.0
             bays += [Pose(x, 1.2, 0.0), Pose(x, HEIGHT - 1.2, math.pi)]
     return bays
 
@@ -149,8 +151,11 @@ def _picks(
         if len(chosen) == count:
             return chosen
         x = round(rng.choice(SHELF_LEFT) + rng.uniform(2.0, SHELF_LENGTH - 2.0), 1)
-        y = rng.choice(SHELF_ROWS[:-1]) + rng.choice((2.5, 3.5))
-        pose = Pose(x, y, rng.choice(headings))
+        theta = rng.choice(headings)
+        half = (BODY_WIDTH if abs(math.cos(theta)) > 0.5 else BODY_LENGTH) / 2.0
+        beside = SHELF_DEPTH / 2.0 + PICK_GAP / 2.0 + half
+        y = rng.choice(SHELF_ROWS[:-1]) + rng.choice((beside, 6.0 - beside))
+        pose = Pose(x, round(y, 9), theta)
         shape = body_shape(kind.footprint, _reference(kind, pose)).geometry
         if all(shape.distance(other) >= PICK_GAP - 1e-9 for other in bodies):
             chosen.append(pose)

@@ -21,6 +21,7 @@ def shelf_batch(
     repeat: bool = False,
     turn_seconds: float = 0.0,
     energy: tuple[float, float] = (1.0, 1.0),
+    everywhere: bool = False,
     settings: Mapping[str, Any] | None = None,
 ) -> Scenario:
     """Return orders that are all released at 0 for shelves drawn by number (R-B14, R-B15, R-B43).
@@ -36,6 +37,8 @@ def shelf_batch(
         Draw with replacement.
     energy
         Lowest and highest level of a battery at the start, drawn evenly.
+    everywhere
+        Spread the robots over all places instead.
     settings
         Of the system.
 
@@ -59,7 +62,7 @@ def shelf_batch(
         robot_types={AGV: kind},
         robots=tuple(
             Robot(f"agv-{i + 1}", AGV, pose, energy=round(levels.uniform(*energy), 4))
-            for i, pose in enumerate(_spread(places, robots))
+            for i, pose in enumerate(_spread(places, robots, everywhere))
         ),
         orders=tuple(
             Order(Task(f"o{i + 1}", (), fetches=f"g{number}")) for i, number in enumerate(shelves)
@@ -79,18 +82,12 @@ def lower_left(layout: Layout) -> list[int]:
     return [row * per_row + column + 1 for row in range(6) for column in range(layout.blocks[0])]
 
 
-def _spread(places: Sequence[Zone], robots: int) -> list[Pose]:
-    """Return places of the lowest row, equally spaced; of further rows where it is too short."""
-    poses = [zone.pose for zone in places if zone.pose is not None]
-    rows: dict[float, list[Pose]] = {}
-    for pose in poses:
-        rows.setdefault(pose.y, []).append(pose)
-    left, chosen = robots, []
-    for y in sorted(rows):
-        row = sorted(rows[y])
-        count = min(left, len(row))
-        chosen += [row[(2 * i + 1) * len(row) // (2 * count)] for i in range(count)]
-        left -= count
-        if not left:
-            return chosen
-    raise ValueError(f"robots: {robots} are more than the {len(poses)} places under shelves")
+def _spread(places: Sequence[Zone], robots: int, everywhere: bool) -> list[Pose]:
+    """Return places, equally spaced, in the lowest row, or in all."""
+    poses = sorted(
+        (zone.pose for zone in places if zone.pose is not None), key=lambda p: (p.y, p.x)
+    )
+    row = poses if everywhere else [pose for pose in poses if pose.y == poses[0].y]
+    if robots > len(row):
+        raise ValueError(f"robots: {robots} are more than the {len(row)} places to start at")
+    return [row[(2 * i + 1) * len(row) // (2 * robots)] for i in range(robots)]

@@ -69,6 +69,11 @@ struct PathParams {
 PathConflicts path_conflicts(const CommittedPath& a, Ticks done_a, const CommittedPath& b,
                              Ticks done_b, const PathParams& params);
 
+// Whether the bodies are more than kHidden in each other for some tick of `a` and some of `b`, each
+// within the stretch given.
+bool paths_overlap(const CommittedPath& a, Ticks from_a, Ticks to_a, const CommittedPath& b,
+                   Ticks from_b, Ticks to_b);
+
 // How far bodies may come closer than planned where that is too near to tell.
 constexpr double kHidden = 0.001;
 

@@ -9,8 +9,10 @@
 
 namespace clearway {
 
+// A search begins nearly exact and soon grows greedy: most trips are easy, and those that are not
+// had better wait near the goal than try all ways round.
 struct TailParams {
-  SearchParams search;
+  SearchParams search{.greed = 0.6, .most_weight = 4.0, .tail_weight = 1.2};
   Objective objective;
   double margin = 0.01;  // gap kept where the robots' clearance asks for less (m)
 };

@@ -38,6 +38,7 @@ struct Leg {
 struct SearchParams {
   double weight = 1.1;         // on the heuristic: larger is greedier
   double greed = 0.3;          // added to it whenever the effort so far has doubled
+  double most_weight = 2.5;    // up to this much
   double tail_weight = 2.0;    // on the legs after the current one: larger goes deeper first
   double soft_weight = 2.0;    // likewise in soft search
   double cell = 0.85;          // poses in one cell compete; in shortest steps of the table

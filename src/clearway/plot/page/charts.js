@@ -9,7 +9,7 @@ function chartsOf() {
     { title: "Orders done an hour", note: "in the minutes before", format: (v) => fixed(v, 0),
       lines: [["orders an hour", curves.throughput, "drive"]] },
     { title: "Waiting and working", note: "share of the fleet", format: share, top: 1,
-      lines: [["driving or at work", curves.working, "service"], ["waiting", curves.waiting, "fault"]] },
+      lines: [["driving or at work", curves.working, "service"], ["waiting", curves.waiting, "waiting"]] },
     { title: "Orders open", note: "released and not done", format: (v) => fixed(v, 0),
       lines: [["open", curves.open, "drive"]] },
   ];

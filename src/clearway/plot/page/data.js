@@ -119,12 +119,15 @@ function visitAt(robot, time) {
   return 1 + lastBefore(robot.visits.length, (i) => robot.visits[i].leave ?? Infinity, 1000 * time);
 }
 
-/** The trip of a run [from, to, purpose, order, sentences] that a robot is on, or null. */
+/** The trip of a run [from, to, purpose, order, sentences], or the time between two. */
 function tripAt(robot, time) {
   const ms = 1000 * time;
   const trip = robot.trips[lastBefore(robot.trips.length, (i) => robot.trips[i][0], ms)];
   return trip && ms < trip[1] ? trip : null;
 }
+
+/** Whether a robot has somewhere to go; in a run before a trip is decided it has not. */
+const hasGoal = (robot, time) => !data.is_run || Boolean(tripAt(robot, time)?.[2]);
 
 /** The task that a robot is at, or heading for; in a run its order. */
 function taskAt(robot, time) {

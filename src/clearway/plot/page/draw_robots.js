@@ -47,6 +47,7 @@ function mixedColour(colour, ink) {
 
 /** The way to the next visit; in a plan all of the way for the chosen robot. */
 function drawWay(ctx, camera, ink, robot, time, isChosen) {
+  if (!hasGoal(robot, time)) return;
   const visit = robot.visits[visitAt(robot, time)];
   const until = (isChosen && !data.is_run) || !visit || visit.arrive === null ? duration : visit.arrive / 1000;
   ctx.beginPath();
@@ -87,7 +88,7 @@ function drawMarks(ctx, camera, ink, robot, time) {
   };
   if (data.is_run) {
     // A run has hundreds of visits: the next one only.
-    if (next < robot.visits.length) mark(robot.visits[next], false);
+    if (hasGoal(robot, time) && next < robot.visits.length) mark(robot.visits[next], false);
     return;
   }
   ctx.fillStyle = ink.floor;
@@ -158,7 +159,7 @@ function drawBody(ctx, camera, ink, robot, time, isChosen) {
   ctx.restore();
 }
 
-/** The id on the body where it fits, otherwise beside it; the mode below the chosen one. */
+/** The id on the body where it fits, otherwise beside it; in a plan the mode below the chosen one. */
 function drawName(ctx, camera, ink, robot, time, isChosen) {
   const pose = poseAt(robot, time);
   const form = robot.shape.body;
@@ -180,7 +181,7 @@ function drawName(ctx, camera, ink, robot, time, isChosen) {
   } else {
     haloText(ctx, ink, name, x, y - Math.min(above, 0.5 * (half * camera.scale + above)) - 8);
   }
-  if (isChosen) {
+  if (isChosen && !data.is_run) {
     ctx.font = `500 12px ${ink.font}`;
     haloText(ctx, ink, doingAt(robot, time), x, y + above + 11);
   }

@@ -8,11 +8,10 @@ class Inspector {
     this.entries = robots.map((robot) => this.entry(robot));
     list.append(...this.entries.map((entry) => entry.item));
     this.fields = {};
-    const names = {
-      type: "Type", doing: "Doing", speed: "Speed", task: data.is_run ? "Order" : "Task", load: "Load",
-      near: "Nearest robot",
-    };
-    if (robots.some((robot) => robot.energy?.[0].length)) names.energy = "Energy";
+    // What a robot of a run does stands below, with the reason.
+    const names = data.is_run
+      ? { type: "Type", speed: "Speed", task: "Order", load: "Load", near: "Nearest robot", energy: "Energy" }
+      : { type: "Type", doing: "Doing", speed: "Speed", task: "Task", load: "Load", near: "Nearest robot" };
     this.heading = make("h2");
     this.hint = make("p", { class: "hint" },
       "Choose a robot here, on the floor or with [ and ] to see what it does.");
@@ -97,7 +96,7 @@ class Inspector {
     if (!robot) return;
     const near = nearest(robot, time);
     say(this.fields.type, robot.type);
-    say(this.fields.doing, doingAt(robot, time));
+    if (this.fields.doing) say(this.fields.doing, doingAt(robot, time));
     say(this.fields.speed, `${fixed(speedAt(robot, time), 2)} m/s`);
     say(this.fields.task, taskAt(robot, time) ?? "none");
     const load = loadAt(robot, time);

@@ -7,7 +7,7 @@ const BARS = {
 };
 // Middle band of a row: kinds differ in height as well as in colour.
 const BAR = {
-  drive: 6, turn: 6, service: 16, charge: 16, wait: 10, stop: 16, refused: 16, stand: 3,
+  drive: 6, turn: 6, service: 16, charge: 16, wait: 14, stop: 16, refused: 16, stand: 3,
 };
 const SPANS = [["the whole run", Infinity], ["30 min", 1800], ["10 min", 600], ["3 min", 180], ["1 min", 60]];
 const LINE = 22;
@@ -110,13 +110,14 @@ class Timeline {
 
   show(time, chosen, ink) {
     const width = this.holder.clientWidth;
-    if (!width || !(this.isSeen || !this.key)) return;
+    if (!width) return;
+    this.frame = this.view;
+    if (this.key && !this.isSeen) return;
     const sharp = Math.min(3, window.devicePixelRatio || 1);
     const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     [this.width, this.height] = [width, HEAD + LINE * robots.length + 4];
     this.letters = clamp(longest, 3, width < 600 ? 8 : 16);
     this.left = 24 + 7.6 * this.letters;
-    this.frame = this.view;
     const key = [width, sharp, ink.floor, chosen && chosen.index, ...this.frame].join();
     if (key !== this.key) {
       this.key = key;
@@ -181,7 +182,7 @@ class Timeline {
   drawRow(pen, robot, middle, ink) {
     const [from, to] = this.frame;
     const bars = robot.activities;
-    const colour = { ...ink, turn: ink.turn, stop: ink.fault, refused: ink.fault, stand: ink.wait };
+    const colour = { ...ink, wait: ink.waiting, stop: ink.fault, refused: ink.fault, stand: ink.wait };
     let k = Math.max(0, lastBefore(bars.length, (i) => bars[i][1], 1000 * from));
     pen.font = `620 11px ${ink.font}`;
     pen.textAlign = "center";
@@ -192,9 +193,11 @@ class Timeline {
       const x = Math.max(this.left, this.xOf(begin / 1000));
       const wide = Math.max(0.6, this.xOf(Math.min(to, end / 1000)) - x);
       pen.fillStyle = colour[kind];
-      if (kind === "wait" && wide > 4) {
+      if (kind === "wait" && wide > 6) {
         // Waiting is stripes, seen without colour too.
-        for (let s = 0; s < wide; s += 4) pen.fillRect(x + s, middle - 5, Math.min(2, wide - s), 10);
+        for (let s = 0; s < wide; s += 4) {
+          pen.fillRect(x + s, middle - height / 2, Math.min(2.4, wide - s), height);
+        }
         continue;
       }
       pen.fillRect(x, middle - height / 2, wide, height);
