@@ -70,6 +70,10 @@ class Executor(Protocol):
         """Return what limits a robot's grant, if it is another robot."""
         ...
 
+    def unmet(self, robot: str) -> Sequence[Precedence]:
+        """Return all that a robot still waits for on its path, if not at once."""
+        ...
+
     def projected(self, now: int) -> Mapping[str, Trajectory]:
         """Return everybody's paths at the times to expect if nobody is held up any more."""
         ...
