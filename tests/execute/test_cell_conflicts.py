@@ -62,7 +62,10 @@ def test_who_crosses_waits_until_the_cell_is_left():
 
 
 def test_who_follows_in_line_keeps_its_body_behind():
-    """With bodies of 0.7 m a follower may come 0.25 m nearer than the cell that lies between."""
+    """With bodies of 0.7 m a follower may come 0.25 m nearer than the cell that lies between.
+
+    In the middle of the cell, where it may turn, it may go on when the other has left.
+    """
     behind = driven(GRID, "behind", [(0, 2), (1, 2)], [1000])
     ahead = replace(EAST, trajectory=driven(GRID, "east", [(1, 2), (2, 2)], [1000]).trajectory)
     waits, _ = CellConflicts(GRID, 0.7)(behind, ahead)
@@ -71,6 +74,7 @@ def test_who_follows_in_line_keeps_its_body_behind():
         (1250, 1250),
         (1500, 1500),
         (1750, 1750),
+        (2000, 2000),
     ]
 
 
@@ -87,9 +91,10 @@ def test_large_bodies_are_refused():
         CellConflicts(GRID, 0.8)
 
 
-def test_holds_of_reserves_that_meet_are_seen():
+def test_reserves_that_meet_are_seen():
+    """East's body reaches into (2, 2) when it is 0.65 m before, at 1350 of its second step."""
     north = driven(GRID, "north", [(2, y) for y in range(5)], [2500, 3500, 4500, 5500])
     check = CellConflicts(GRID)
     assert not check.overlap(EAST, (3000, 4000), north, (3000, 5000))
-    assert not check.overlap(EAST, (0, 2500), north, (3000, 3500))
-    assert check.overlap(EAST, (0, 2500), north, (3000, 3600))
+    assert not check.overlap(EAST, (0, 1250), north, (4500, 4500))
+    assert check.overlap(EAST, (0, 1350), north, (4500, 4500))

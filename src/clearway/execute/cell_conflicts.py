@@ -4,7 +4,7 @@ import math
 from collections import defaultdict
 from dataclasses import dataclass
 
-from clearway.execute.course import NEVER
+from clearway.execute.course import NEVER, Course
 from clearway.execute.staircase import pruned
 from clearway.model import Commitment, Pose, Trajectory
 from clearway.protocols import Precedence
@@ -13,6 +13,7 @@ from clearway.world.lane_grid import Cell, LaneGrid
 # Lengths (m), shares and ticks this small are rounding.
 NEAR = 1e-6
 
+Box = tuple[float, float, float, float]
 Found = tuple[tuple[Precedence, ...], tuple[Precedence, ...]]
 
 
@@ -53,8 +54,10 @@ class CellConflicts:
                 f"{grid.cell / math.sqrt(2.0):.3f} m"
             )
         self.grid = grid
+        self._body = body
         # So many parts of a move that one of them is less than what is free of a cell.
         self._parts = math.ceil(grid.cell / (grid.cell - body) - 1e-9)
+        self._boxed: dict[str, tuple[Commitment, tuple[int, int], list[Box], Course]] = {}
         self._known: dict[str, tuple[Commitment, dict[Cell, list[CellHold]]]] = {}
 
     def __call__(self, one: Commitment, other: Commitment, done: tuple[int, int] = (0, 0)) -> Found:
@@ -82,16 +85,35 @@ class CellConflicts:
     def overlap(
         self, one: Commitment, ticks: tuple[int, int], other: Commitment, its: tuple[int, int]
     ) -> bool:
-        """Return whether, within two stretches of ticks, both may hold a cell and not in line."""
-        a, b = self._by_cell(one), self._by_cell(other)
-        for cell in a.keys() & b.keys():
-            for mine in a[cell]:
-                for its_hold in b[cell]:
-                    if not (_during(mine, ticks) and _during(its_hold, its)):
-                        continue
-                    if not (_follows(mine, its_hold) or _follows(its_hold, mine)):
-                        return True
-        return False
+        """Return whether bodies are in each other for some tick of each of two stretches.
+
+        Bodies are squares along the axes, or what these sweep when they turn.
+        """
+        a, b = self._boxes(one, ticks), self._boxes(other, its)
+        return any(
+            p[0] < q[2] - NEAR and q[0] < p[2] - NEAR and p[1] < q[3] - NEAR and q[1] < p[3] - NEAR
+            for p in a
+            for q in b
+        )
+
+    def _boxes(self, commitment: Commitment, ticks: tuple[int, int]) -> list[Box]:
+        """Return the least and largest x and y of the floor needed within some ticks."""
+        known = self._boxed.get(commitment.robot)
+        if known is not None and known[0] is commitment and known[1] == ticks:
+            return known[2]
+        is_old = known is None or known[0] is not commitment
+        course = Course(commitment.trajectory) if known is None or is_old else known[3]
+        boxes: list[Box] = []
+        for k in range(course.index(ticks[0]), course.index(ticks[1]) + 1):
+            stretch = course.stretches[k]
+            first = course.pose(max(ticks[0], stretch.begin))
+            last = course.pose(min(ticks[1], stretch.end))
+            turns = stretch.piece is not None and stretch.piece.length < NEAR
+            half = 0.5 * self._body * (math.sqrt(2.0) if turns else 1.0)
+            (x0, x1), (y0, y1) = sorted((first.x, last.x)), sorted((first.y, last.y))
+            boxes.append((x0 - half, y0 - half, x1 + half, y1 + half))
+        self._boxed[commitment.robot] = (commitment, ticks, boxes, course)
+        return boxes
 
     def _behind(self, robot: str, mine: CellHold, other: str, its: CellHold) -> list[Precedence]:
         """Return what a robot waits for before it enters a cell that another entered before."""
@@ -99,8 +121,9 @@ class CellConflicts:
             return [Precedence(mine.enter, other, its.leave)]
         steps = []
         if _follows(mine, its):
+            # Once there it may turn, so the other must have left by then.
             n = self._parts
-            for k in range(n):
+            for k in range(n + 1):
                 at = mine.enter + (mine.there - mine.enter) * k // n
                 passed = its.go + -((its.go - its.leave) * k // n)
                 steps.append(Precedence(at, other, passed))
@@ -166,10 +189,6 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
 def _follows(mine: CellHold, its: CellHold) -> bool:
     """Whether one comes into a cell the way that the other leaves it."""
     return mine.came is not None and mine.came == its.goes
-
-
-def _during(hold: CellHold, ticks: tuple[int, int]) -> bool:
-    return hold.enter < ticks[1] and ticks[0] < hold.leave
 
 
 def _step(start: Pose, end: Pose) -> Cell:
