@@ -247,6 +247,6 @@ def test_delays_become_the_new_times():
             ledger.report(name, min(tick, ledger.grant(name)))
     expected = ledger.projected(standing)
     assert expected[late].end > commit[late].trajectory.end + 10_000  # it skips planned waits
-    traffic.retime(expected)
+    traffic.retime(expected, standing)
     traffic.run(60)
     assert validate_plan(traffic.record()) == []
