@@ -79,7 +79,6 @@ class LaneWays:
             stay = _core.CellStay(self.index(end), ready, _core.NEVER, ready, done)
             return LaneWay([stay], (), done)
         way = self._search(
-            self.holds,
             self._legal(begin, end, any_direction),
             robot,
             self.index(begin),
