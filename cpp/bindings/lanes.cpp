@@ -87,18 +87,18 @@ void bind_lanes(nb::module_& m) {
           "holds"_a, "may_wait"_a, "turn"_a, nb::keep_alive<1, 2>())
       .def(
           "__call__",
-          [](LaneSearch& self, const CellHolds& holds, const Bytes& moves, int robot, int start,
-             int goal, Ticks now, Ticks granted, std::array<Ticks, 4> first_turn,
-             std::array<Ticks, 4> last_turn, std::int64_t limit) {
-            check(moves, holds, "moves");
-            const int cells = holds.width() * holds.height();
+          [](LaneSearch& self, const Bytes& moves, int robot, int start, int goal, Ticks now,
+             Ticks granted, std::array<Ticks, 4> first_turn, std::array<Ticks, 4> last_turn,
+             std::int64_t limit) {
+            check(moves, self.holds(), "moves");
+            const int cells = self.holds().width() * self.holds().height();
             if (std::min(start, goal) < 0 || std::max(start, goal) >= cells)
               throw std::invalid_argument("start and goal must be cells of the grid");
             return self(moves.data(), {robot, start, goal, now, granted, first_turn, last_turn},
                         limit);
           },
-          "holds"_a, "moves"_a, "robot"_a, "start"_a, "goal"_a, "now"_a, "granted"_a,
-          "first_turn"_a, "last_turn"_a, "limit"_a,
+          "moves"_a, "robot"_a, "start"_a, "goal"_a, "now"_a, "granted"_a, "first_turn"_a,
+          "last_turn"_a, "limit"_a,
           "`moves` holds bits of the legal directions out of each cell; the earliest arrival "
           "wins.");
 }

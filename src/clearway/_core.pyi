@@ -1024,7 +1024,7 @@ class LaneSearch:
 
     def __init__(self, holds: CellHolds, may_wait: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], turn: int) -> None: ...
 
-    def __call__(self, holds: CellHolds, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, granted: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
+    def __call__(self, moves: Annotated[NDArray[numpy.uint8], dict(shape=(None, None), order='C', device='cpu', writable=False)], robot: int, start: int, goal: int, now: int, granted: int, first_turn: Sequence[int], last_turn: Sequence[int], limit: int) -> LaneWay:
         """
         `moves` holds bits of the legal directions out of each cell; the earliest arrival wins.
         """

@@ -88,9 +88,9 @@ class Traffic:
             self.note(self.told[robot][-1])
         return concerned
 
-    def retime(self, paths: Mapping[str, Trajectory]) -> None:
+    def retime(self, paths: Mapping[str, Trajectory], now: int) -> None:
         """Begin anew, from where robots are, with the same paths at other times."""
-        self.planner.retime(paths)
+        self.planner.retime(paths, now)
         self.robots = tuple(replace(robot, start=paths[robot.id].start) for robot in self.robots)
         for robot in self.robots:
             self.told[robot.id] = [self.planner.commitment(robot.id)]

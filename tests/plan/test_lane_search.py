@@ -67,7 +67,7 @@ def test_arrivals_are_those_of_brute_force(block, wide):
             holds.put(number, route)
         first, last = [0, 1, 2, 1], [1, 2, 1, 0]
         search = _core.LaneSearch(holds, may_wait, QUARTER)
-        way = search(holds, moves, 0, start, goal, 5, 0, first, last, LIMIT)
+        way = search(moves, 0, start, goal, 5, 0, first, last, LIMIT)
         expected = earliest(
             moves,
             may_wait,

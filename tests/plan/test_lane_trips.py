@@ -15,7 +15,7 @@ from clearway.protocols import Refusal
 from clearway.validate import validate_plan
 from clearway.world.channels import agv_type
 from clearway.world.dynamic_map import DynamicMap
-from clearway.world.lane_grid import HORIZONTAL, LONGITUDINAL
+from clearway.world.lane_grid import CROSSING, HORIZONTAL, LONGITUDINAL, T_CROSSING
 
 CHANNELS = (HORIZONTAL, LONGITUDINAL)
 
@@ -26,8 +26,24 @@ CHANNELS = (HORIZONTAL, LONGITUDINAL)
 def test_random_trips_all_end_and_no_bodies_meet(rule, turn_seconds, rules):
     """Twenty robots on every layout, judged on their true bodies."""
     traffic = Traffic(Layout(rule), 20, turn_seconds, seed=1, rules=rules)
-    traffic.run(150)
+    assert traffic.run(150) == []
     assert validate_plan(traffic.record()) == []
+
+
+@pytest.mark.parametrize("rules", ["waiting", "search"])
+@pytest.mark.parametrize("rule", LAYOUTS)
+def test_nobody_waits_inside_a_crossing(rule, rules):
+    """R-B35: a crossing is entered only if the cell behind it is free as well."""
+    traffic = Traffic(Layout(rule, blocks=(3, 3, 3), bands=3), 14, seed=2, rules=rules)
+    traffic.run(200)
+    region, passed = traffic.grid.region, 0
+    for told in traffic.told.values():
+        for commitment in told:
+            stays = stays_of(traffic.grid, commitment.trajectory)
+            crossed = [stay for stay in stays if region.flat[stay.cell] in (CROSSING, T_CROSSING)]
+            passed += len(crossed)
+            assert all(stay.arrive == stay.depart for stay in crossed)
+    assert passed > 200
 
 
 def box_at(grid, cell, half=0.3):
@@ -231,6 +247,6 @@ def test_delays_become_the_new_times():
             ledger.report(name, min(tick, ledger.grant(name)))
     expected = ledger.projected(standing)
     assert expected[late].end > commit[late].trajectory.end + 10_000  # it skips planned waits
-    traffic.retime(expected)
+    traffic.retime(expected, standing)
     traffic.run(60)
     assert validate_plan(traffic.record()) == []

@@ -43,7 +43,6 @@ LaneWay LaneSearch::operator()(const std::uint8_t* moves, const LaneQuery& query
   const auto later = [](const Open& a, const Open& b) {
     if (a.f != b.f) return a.f > b.f;
     if (a.arrive != b.arrive) return a.arrive < b.arrive;
-    if (a.turns != b.turns) return a.turns > b.turns;
     return a.node > b.node;
   };
   Node start;
@@ -53,7 +52,7 @@ LaneWay LaneSearch::operator()(const std::uint8_t* moves, const LaneQuery& query
     if (holds_->hold(id).robot != query.robot && holds_->hold(id).end <= query.now)
       start.before = id;
   nodes_.push_back(start);
-  open_.push_back({query.now + estimate(start.cell), query.now, 0, 0});
+  open_.push_back({query.now + estimate(start.cell), query.now, 0});
 
   std::int64_t expansions = 0;
   while (!open_.empty()) {
@@ -75,7 +74,7 @@ LaneWay LaneSearch::operator()(const std::uint8_t* moves, const LaneQuery& query
     for (std::size_t i = known; i < nodes_.size(); ++i) {
       const Node& n = nodes_[i];
       const Ticks f = n.cell == query.goal ? last_turn(n).end : n.arrive + estimate(n.cell);
-      open_.push_back({f, n.arrive, n.num_entries, static_cast<int>(i)});
+      open_.push_back({f, n.arrive, static_cast<int>(i)});
       std::push_heap(open_.begin(), open_.end(), later);
     }
   }

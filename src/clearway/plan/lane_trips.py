@@ -26,7 +26,7 @@ from clearway.plan.lane_ways import LaneWay, LaneWays, Moves
 from clearway.plan.named_waits import retimed_waits
 from clearway.plan.waits_by_rule import ROUNDS, WaitsByRule
 from clearway.protocols import Refusal
-from clearway.world.lane_grid import Cell, LaneGrid
+from clearway.world.lane_grid import LaneGrid
 
 LIMIT = 100_000  # expansions of a search, times the effort
 
@@ -112,6 +112,7 @@ class LaneTrips:
         way = self._by_rules(me, start, goal, ready, now)
         if way is None:
             granted, limit = now + self._notice, LIMIT * effort
+            spent = self._ways.expansions
             way = self._ways.earliest(me, start, goal, ready, granted, limit)
             if way is None and self._ways.has_closed:
                 # Obstacles may leave no way along the lanes.
@@ -119,7 +120,7 @@ class LaneTrips:
             if way is None:
                 return Refusal(
                     f"no way to {trip.goals[0] or goal} in {limit} expansions",
-                    expansions=self._ways.expansions,
+                    expansions=self._ways.expansions - spent,
                 )
             self._holds.put(me, self._joined(me, now, way.stays)[0])
         commitment = self._commitment(trip, old, now, way)
@@ -156,10 +157,6 @@ class LaneTrips:
             self._ways, self._committed, self._loaded, now, max(lead, self._notice), LIMIT
         )
         return detours(obstacle)
-
-    def route_length(self, start: Cell, goal: Cell) -> float:
-        """Return how far (m) it is from a cell to an endpoint with nobody else; else infinite."""
-        return self._ways.length(start, goal)
 
     def _place(self, robot: Robot) -> None:
         cell = self.grid.cell_at(robot.start)

@@ -1,6 +1,5 @@
 """Ways of single robots over a lane grid, past what others hold."""
 
-import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
@@ -54,7 +53,6 @@ class LaneWays:
         self._moves = moves
         self._free = np.ones(grid.region.shape, np.bool_)
         self._open: MoveMap | None = None  # moves that do not lead into closed cells
-        self._lengths: dict[tuple[Cell, Cell], float] = {}
 
     def earliest(
         self,
@@ -81,7 +79,6 @@ class LaneWays:
             stay = _core.CellStay(self.index(end), ready, _core.NEVER, ready, done)
             return LaneWay([stay], (), done)
         way = self._search(
-            self.holds,
             self._legal(begin, end, any_direction),
             robot,
             self.index(begin),
@@ -111,20 +108,11 @@ class LaneWays:
         turned = there + self._last_turn(HEADINGS[direction(*cells[-2:])], goal.theta)
         return [*stays[:-1], _core.CellStay(indices[-1], there, _core.NEVER, there, turned)]
 
-    def length(self, start: Cell, goal: Cell) -> float:
-        """Return how far (m) it is from a cell to an endpoint with nobody else; else infinite."""
-        if (start, goal) not in self._lengths:
-            cells = self._route(self._legal(start, goal), start, goal, None)
-            steps = math.inf if cells is None else len(cells) - 1
-            self._lengths[start, goal] = steps * self.grid.cell
-        return self._lengths[start, goal]
-
     def close(self, cells: Collection[Cell]) -> None:
         """Let nobody enter some cells any more."""
         for x, y in cells:
             self._free[y, x] = False
         self._open = moves_into(self._free)
-        self._lengths.clear()
 
     @property
     def has_closed(self) -> bool:

@@ -41,6 +41,8 @@ class LaneSearch {
   // `moves`: bits of the legal directions out of each cell. The earliest arrival wins.
   LaneWay operator()(const std::uint8_t* moves, const LaneQuery& query, std::int64_t limit);
 
+  const CellHolds& holds() const { return *holds_; }
+
  private:
   // One cell entered on the way; times count from the departure from the cell waited in.
   struct Entry {
@@ -63,7 +65,6 @@ class LaneSearch {
   };
   struct Open {
     Ticks f, arrive;
-    int turns;
     int node;
   };
   struct Turn {
