@@ -168,9 +168,14 @@ def main() -> None:
     parser.add_argument("--choose", choices=("first", "nearest"), default="first")
     parser.add_argument("--limit", type=int)
     parser.add_argument("--rests", type=int)
+    parser.add_argument("--effort", type=int)
     parser.add_argument("--search", nargs="*", default=[])
     options = parser.parse_args()
-    given = {"search_limit": options.limit, "most_rests": options.rests}
+    given = {
+        "search_limit": options.limit,
+        "most_rests": options.rests,
+        "most_effort": options.effort,
+    }
     params = TailTripsParams(**{key: value for key, value in given.items() if value is not None})
     for pair in options.search:
         key, value = pair.split("=")

@@ -25,6 +25,8 @@ class TailTripsParams:
     search_limit
         Expansions of one search at effort 1; more finds more and costs more where there is
         nothing to find.
+    most_effort
+        Up to which effort counts; with more, hard trips cost more and begin a little sooner.
     most_rests
         Free bays that a tail may end in, the nearest to its last visit; more find more, and each
         estimate takes longer.
@@ -36,6 +38,7 @@ class TailTripsParams:
     """
 
     search_limit: int = 2000
+    most_effort: int = 4
     most_rests: int = 3
     patience: float = 60.0
     core: _core.TailParams = field(default_factory=_core.TailParams)
@@ -43,7 +46,7 @@ class TailTripsParams:
     def __post_init__(self) -> None:
         if not self.patience >= 0.0:
             raise ValueError(f"patience must be 0 or above, got {self.patience}")
-        for name in ("search_limit", "most_rests"):
+        for name in ("search_limit", "most_effort", "most_rests"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, got {getattr(self, name)}")
 
@@ -98,7 +101,7 @@ class TailTrips:
             return Refusal("no bay is free", fleet.holders(trip.rests))
         kept = fleet.cut(robot, now, max(now + lead, old.served))
         query = fleet.query(robot, now, kept, trip.visits, rests)
-        query.limit = self.params.search_limit * effort
+        query.limit = self.params.search_limit * min(effort, self.params.most_effort)
         tail = self._search(query)
         spent = tail.expansions
         if not tail.found and tail.exhausted and self._is_closed(query):
