@@ -166,3 +166,42 @@ def run(
             number += 1
     log.open = list(board.open)
     return log
+
+
+def by_purpose(log: Log, purpose: str) -> list[tuple[int, int, str, str]]:
+    """Return (departure, end, robot, goal) of the trips of one purpose."""
+    return [
+        (begin, end, c.trip.robot, c.trip.goals[0] or "")
+        for begin, end, c in log.driven
+        if c.trip.purpose == purpose
+    ]
+
+
+def check_ownership(scenario: Scenario, log: Log) -> None:
+    """Nobody is bound for an endpoint before its last owner was committed to leave it."""
+    zones = {zone.pose: zone.name for zone in scenario.site.zones}
+    owned = {robot.id: zones.get(robot.start) for robot in scenario.robots}
+    assert len(set(owned.values())) == len(owned)
+    for _, _, choice in log.driven:
+        goal, robot = choice.trip.goals[0], choice.trip.robot
+        assert goal not in [other for r, other in owned.items() if r != robot], (goal, choice)
+        owned[robot] = goal
+
+
+def check_shelves(scenario: Scenario, log: Log) -> None:
+    """Each order's shelf is carried once at a time, by one robot, from where it was left."""
+    at = {zone.name: zone.name for zone in scenario.site.zones_of("shelf")}
+    carried: dict[str, str] = {}
+    for _, _, choice in sorted(log.driven, key=lambda d: d[0]):
+        trip = choice.trip
+        if trip.purpose == "fetch":
+            (shelf,) = trip.carries
+            assert at[shelf] == trip.goals[0]
+            assert shelf not in carried.values()
+            carried[trip.robot] = shelf
+        elif trip.purpose == "deliver":
+            del at[carried[trip.robot]]
+        elif trip.purpose == "store":
+            at[carried.pop(trip.robot)] = trip.goals[0] or ""
+            assert len(set(at.values())) == len(at), "two shelves in one place"
+    assert not carried

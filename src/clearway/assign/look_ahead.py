@@ -15,6 +15,7 @@ from clearway.protocols import Alternative, Board, Choice, RobotView, Weights
 from clearway.world.lane_times import LaneTimes
 
 Floats = NDArray[np.float64]
+FAR = 1e9  # forbids a place
 
 
 @dataclass(frozen=True)
@@ -233,15 +234,16 @@ class LookAhead(ShelfCycle):
         places = [self._times.number[name] for name in names]
         at = self._at(view.id)
         onward = self._far[at, places] + self._onward(view.id, places)
-        best = places.index(self._match()[view.id])
+        best = places.index(self._match(storing=view.id)[view.id])
         ranked = _ranked(names, onward, number)
         mine = Alternative(names[best], float(onward[best]))
         return [mine, *(other for other in ranked if other.name != mine.name)][:number]
 
-    def _match(self) -> dict[str, int]:
+    def _match(self, storing: str | None = None) -> dict[str, int]:
         """Give each shelf on board a place of its own, the ways to next orders short in sum.
 
-        Shelves that are being lifted count as well, and the places that they leave.
+        Shelves that have been lifted and not left count as well, and the places that they will
+        leave; but who is ``storing`` now needs a vacant one (there are enough, R-B13).
         """
         robots = list(self._bring)
         places = [self._times.number[name] for name in self.yard.vacant.names()]
@@ -252,6 +254,8 @@ class LookAhead(ShelfCycle):
             at, stations = self._bring[robot]
             way = self._far[at, stations][:, None] + self._far[np.ix_(stations, places)]
             cost[k] = way.min(axis=0) + self._onward(robot, places)
+            if robot == storing:
+                cost[k, len(self.yard.vacant) :] = FAR
         rows, columns = linear_sum_assignment(cost)
         return {robots[k]: places[c] for k, c in zip(rows, columns, strict=True)}
 
