@@ -13,6 +13,7 @@ from clearway.plan.tail_fleet import TailFleet
 from clearway.protocols import Refusal
 
 TailParams = _core.TailParams
+LEAD = 500  # least ticks from an obstacle's coming to light to the first change of a motion
 LONE_LIMIT = 400_000  # expansions of a search with nobody else on the site
 
 
@@ -79,7 +80,7 @@ class TailTrips:
         self.params = params or TailTripsParams()
         self._fleet = TailFleet(scenario, self.params.core, self.params.most_rests)
         self._counters: Counter[str] = Counter()
-        self._refused: dict[str, int] = {}  # since when
+        self._refused: dict[str, tuple[int, int]] = {}  # first and last tick, in a row
         self._park()
 
     @property
@@ -111,8 +112,7 @@ class TailTrips:
         if not tail.found and tail.exhausted and self._is_closed(query):
             reason = "even with nobody else on the site no way leads through its visits to a bay"
             return Refusal(reason, for_good=True, expansions=spent)
-        waited = now - self._refused.setdefault(robot, now)
-        if not tail.found and waited >= to_ticks(self.params.patience):
+        if not tail.found and self._is_out_of_patience(robot, now):
             # With all at rest, the way from its bay and back is as good as alone.
             all_rest = max(fleet.core.settled(i) for i in range(len(fleet.ids)))
             kept = fleet.cut(robot, now, max(now + lead, all_rest))
@@ -124,7 +124,7 @@ class TailTrips:
         if not tail.found:
             causes = tuple(fleet.ids[i] for i in tail.met)
             return Refusal(f"no way found in {spent} expansions", causes, expansions=spent)
-        del self._refused[robot]
+        self._refused.pop(robot, None)
         return fleet.commit(robot, kept, tail, rests, trip)
 
     def commitment(self, robot: str) -> Commitment:
@@ -152,7 +152,8 @@ class TailTrips:
 
     def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle; see `clearway.protocols.TripPlanner`."""
-        detour = Detour(self._fleet, self._search, self.params.search_limit, now)
+        first = now + max(lead, LEAD)
+        detour = Detour(self._fleet, self._search, self.params.search_limit, now, first)
         return detour.around(obstacle)
 
     def _search(self, query: _core.TailQuery) -> _core.Tail:
@@ -161,6 +162,15 @@ class TailTrips:
         self._counters["searches"] += 1
         self._counters["refused"] += not tail.found
         return tail
+
+    def _is_out_of_patience(self, robot: str, now: int) -> bool:
+        """Note a refusal; return whether the robot has been refused for too long."""
+        patience = to_ticks(self.params.patience)
+        first, last = self._refused.get(robot, (now, now))
+        if now - last > patience:  # it has not asked meanwhile
+            first = now
+        self._refused[robot] = first, now
+        return now - first >= patience
 
     def _is_closed(self, query: _core.TailQuery) -> bool:
         """Whether a trip is impossible with nobody else on the site."""
