@@ -1,197 +1,116 @@
-"""How many orders an hour a fleet serves for ever, and what planning costs.
+"""How many orders an hour system A serves for ever, and what planning costs.
 
-    python benchmarks/lifelong.py --robots 10 20 40 --minutes 30
+    python benchmarks/lifelong.py --robots 10 20 40 --minutes 30 --dispatch nearest --judge
 
-The loop here is the smallest there is: who has served an order gets another one; who is refused asks
-again after a while, with more effort. `--choose nearest` takes the nearest of the open orders, and
-avoids aisles in which others have picks to make.
+Ratio: from the end of an order to the end of the robot's next one, over what the same visits take
+with nobody else on the site. Seconds are of the processor, of planning alone.
 """
 
 import argparse
-import random
 import statistics
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from clearway.model import Commitment, Pose, Scenario, Trip, Visit, Zone, to_seconds
+from clearway.model import Commitment, Scenario, Trip, to_seconds, to_ticks
 from clearway.plan.tail_trips import TailTrips, TailTripsParams
 from clearway.protocols import Refusal
+from clearway.systems.choose import choose_lifelong
+from clearway.systems.simulate import run_through_time
+from clearway.validate.trace_judge import validate_trace
 from clearway.world.lifelong import lifelong_warehouse
 
-RETRY, MOST_RETRY = 1000, 8000  # ticks after which a refused robot asks again, doubled each time
-MOST_EFFORT = 16  # doubled each time, too
-AISLE_PENALTY = 30.0  # m for each other robot that has picks to make in the same aisle
+UNSERVED = 300.0  # s
 
 
-@dataclass
-class Job:
-    pick: Zone
-    station: Zone
+class Timed(TailTrips):
+    """Keeps count of what is asked of it."""
+
+    def __init__(self, scenario: Scenario, params: TailTripsParams) -> None:
+        begin = time.process_time()
+        super().__init__(scenario, params)
+        self.setup = time.process_time() - begin
+        self.end = to_ticks(scenario.simulation.until or 0.0)
+        self.seconds: list[float] = []
+        self.ratios: list[float] = []
+        self.waiting = self.lasting = self.done = 0
+        self.served: dict[str, list[int]] = {robot.id: [0] for robot in scenario.robots}
+
+    def plan(self, trip: Trip, now: int, effort: int = 1, lead: int = 0) -> Commitment | Refusal:
+        old = self.commitment(trip.robot)
+        pose = old.trajectory.at(max(now, old.served))
+        begin = time.process_time()
+        answer = super().plan(trip, now, effort, lead)
+        self.seconds.append(time.process_time() - begin)
+        if isinstance(answer, Commitment) and answer.served <= self.end:
+            last, lone = self.served[trip.robot][-1], self.lone(trip, pose)
+            self.served[trip.robot].append(answer.served)
+            self.done += 1
+            if lone:
+                self.ratios.append((answer.served - last) / lone)
+            self.lasting += answer.served - last
+            self.waiting += sum(min(w.end or 0, answer.served) - w.begin for w in answer.waits)
+            self.waiting += max(0, now - last)
+        return answer
+
+    def unserved(self) -> int:
+        """Robots that have gone without the end of an order for long."""
+        gaps = [np.diff([*ticks, self.end]).max() for ticks in self.served.values()]
+        return sum(gap > to_ticks(UNSERVED) for gap in gaps)
 
 
-@dataclass
-class Tally:
-    done: int = 0
-    ratios: list[float] = field(default_factory=list)
-    cpu: list[float] = field(default_factory=list)
-    refused: int = 0
-    expansions: list[int] = field(default_factory=list)
-    waiting: int = 0
-    driving: int = 0
-    longest: int = 0
-    unserved: int = 0
+def measure(scenario: Scenario, params: TailTripsParams, judge: bool) -> str:
+    made: list[Timed] = []
+
+    def trips(given: Scenario) -> Timed:
+        made.append(Timed(given, params))
+        return made[0]
+
+    system = replace(choose_lifelong(scenario), trips=trips)
+    run = run_through_time(scenario, system)
+    timed = made[0]
+    ms = 1000.0 * np.array(timed.seconds)
+    hours = to_seconds(timed.end) / 3600.0
+    told = [
+        f"{timed.done / hours:.0f} orders/h",
+        f"ratio {statistics.fmean(timed.ratios):.2f}",
+        f"waiting {timed.waiting / timed.lasting:.1%}",
+        f"{len(ms)} replans ({timed.counters['refused']} searches in vain, "
+        f"{timed.counters['last_resorts']} last resorts)",
+        f"{np.median(ms):.1f} / {np.percentile(ms, 99):.1f} ms",
+        f"{ms.sum() / 1000.0 + timed.setup:.1f} s",
+        f"over {UNSERVED:.0f} s unserved {timed.unserved()}",
+        f"ended as {run.status}",
+    ]
+    if judge:
+        told.append(f"violations {len(validate_trace(run.trace))}")
+    return ", ".join(told)
 
 
-Chooser = Callable[[list[Job], Pose, list[Job]], int]
-
-
-def first(open_jobs: list[Job], pose: Pose, taken: list[Job]) -> int:
-    return 0
-
-
-def nearest(open_jobs: list[Job], pose: Pose, taken: list[Job]) -> int:
-    def score(job: Job) -> float:
-        same = sum(aisle(other) == aisle(job) for other in taken)
-        return pose_of(job.pick).distance(pose) + AISLE_PENALTY * same
-
-    return min(range(len(open_jobs)), key=lambda i: score(open_jobs[i]))
-
-
-def aisle(job: Job) -> tuple[bool, int]:
-    pose = pose_of(job.pick)
-    return pose.x > 50.0, int(pose.y // 6.0)
-
-
-def pose_of(zone: Zone) -> Pose:
-    assert zone.pose is not None
-    return zone.pose
-
-
-def run(scenario: Scenario, params: TailTripsParams, choose: Chooser) -> tuple[Tally, float]:
-    rng = random.Random(scenario.seed)
-    zones = scenario.site
-    picks, stations = zones.zones_of("shelf"), zones.zones_of("station")
-    bays = tuple(zone.name for zone in zones.zones_of("parking"))
-    begin = time.process_time()
-    trips = TailTrips(scenario, params)
-    tally = Tally()
-    service = scenario.simulation.streams[0].draws[0].service
-    open_jobs = [Job(rng.choice(picks), rng.choice(stations)) for _ in range(10)]
-    ids = [robot.id for robot in scenario.robots]
-    wanted: dict[str, Job] = {}
-    since = dict.fromkeys(ids, 0)
-    asks = dict.fromkeys(ids, 0)
-    tries = dict.fromkeys(ids, 0)
-    busy: dict[str, tuple[Job, int, float, int]] = {}
-    last_end = dict.fromkeys(ids, 0)
-    end = int(1000 * (scenario.simulation.until or 1800.0))
-    now = 0
-    while now < end:
-        for robot in list(busy):
-            job, begun, lone, until = busy[robot]
-            if until <= now:
-                del busy[robot]
-                tally.done += 1
-                tally.ratios.append((until - begun) / lone)
-                since[robot], asks[robot], tries[robot] = until, now, 0
-                last_end[robot] = until
-        idle = sorted((r for r in ids if r not in busy and asks[r] <= now), key=lambda r: since[r])
-        for robot in idle:
-            at = trips.commitment(robot)
-            pose = position(at, now)
-            if robot not in wanted or choose is not first:
-                if robot in wanted:
-                    open_jobs.append(wanted.pop(robot))
-                chosen = choose(open_jobs, pose, [b[0] for b in busy.values()])
-                wanted[robot] = open_jobs.pop(chosen)
-            job = wanted[robot]
-            visits = (
-                Visit(None, pose_of(job.pick), service),
-                Visit(None, pose_of(job.station), service),
-            )
-            trip = Trip(robot, visits, "order", None, (job.pick.name, job.station.name), bays)
-            clock = time.process_time()
-            answer = trips.plan(trip, now, min(2 ** tries[robot], MOST_EFFORT))
-            tally.cpu.append(time.process_time() - clock)
-            pause = min(RETRY * 2 ** tries[robot], MOST_RETRY)
-            tries[robot] += 1
-            if isinstance(answer, Refusal):
-                tally.refused += 1
-                tally.expansions.append(answer.expansions)
-                asks[robot] = now + pause
-                continue
-            tally.longest = max(tally.longest, now - since[robot])
-            del wanted[robot]
-            open_jobs.append(Job(rng.choice(picks), rng.choice(stations)))
-            while len(open_jobs) < 10:
-                open_jobs.append(Job(rng.choice(picks), rng.choice(stations)))
-            lone = lone_ticks(trips, trip, pose)
-            busy[robot] = (job, since[robot], lone, answer.served)
-            tally.waiting += sum((w.end or w.begin) - w.begin for w in answer.waits)
-            tally.driving += answer.served - now
-        times = [b[3] for b in busy.values()] + [asks[r] for r in ids if r not in busy]
-        now = max(now + 1, min(times))
-    tally.unserved = sum(end - last_end[r] > 300_000 for r in ids)
-    return tally, time.process_time() - begin
-
-
-LONE: dict[tuple[str, Pose, Pose, Pose], float] = {}
-LONE_CPU = [0.0]
-
-
-def lone_ticks(trips: TailTrips, trip: Trip, pose: Pose) -> float:
-    clock = time.process_time()
-    found = trips.lone(trip, pose)
-    LONE_CPU[0] += time.process_time() - clock
-    return float(found)
-
-
-def position(commitment: Commitment, now: int) -> Pose:
-    trajectory = commitment.trajectory
-    pose = trajectory.start
-    for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
-        if begin >= now:
-            break
-        pose = piece.at(min(1.0, (now - begin) / (end - begin)))
-    return pose
-
-
-def main() -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--robots", type=int, nargs="+", default=[10, 20, 40])
-    parser.add_argument("--fleet", default="cars")
+    parser.add_argument("--fleet", default="cars", choices=("cars", "carriers"))
     parser.add_argument("--minutes", type=float, default=30.0)
     parser.add_argument("--seeds", type=int, nargs="+", default=[1])
-    parser.add_argument("--choose", choices=("first", "nearest"), default="first")
-    parser.add_argument("--limit", type=int)
-    parser.add_argument("--rests", type=int)
-    parser.add_argument("--search", nargs="*", default=[])
-    options = parser.parse_args()
-    given = {"search_limit": options.limit, "most_rests": options.rests}
-    params = TailTripsParams(**{key: value for key, value in given.items() if value is not None})
-    for pair in options.search:
-        key, value = pair.split("=")
-        setattr(params.core.search, key, type(getattr(params.core.search, key))(float(value)))
-    chooser = first if options.choose == "first" else nearest
+    parser.add_argument("--dispatch", default="oldest", choices=("oldest", "nearest"))
+    parser.add_argument("--judge", action="store_true", help="judge what was driven")
+    for name in ("search_limit", "most_effort", "most_rests"):
+        parser.add_argument(f"--{name}", type=int)
+    options = parser.parse_args(arguments)
+    given = {name: getattr(options, name) for name in ("search_limit", "most_effort", "most_rests")}
+    params = TailTripsParams(**{name: value for name, value in given.items() if value is not None})
     for robots in options.robots:
         for seed in options.seeds:
             scenario = lifelong_warehouse(
                 robots, seed, fleet=options.fleet, minutes=options.minutes
             )
-            LONE_CPU[0] = 0.0
-            tally, cpu = run(scenario, params, chooser)
-            ms = 1000.0 * np.array(tally.cpu)
+            scenario = replace(scenario, settings={"dispatch": options.dispatch})
+            result = measure(scenario, params, options.judge)
             print(
-                f"{robots} {options.fleet} seed {seed}: {tally.done * 60.0 / options.minutes:.0f} orders/h, "
-                f"ratio {statistics.fmean(tally.ratios or [0]):.2f}, "
-                f"waiting {tally.waiting / max(1, tally.driving):.1%}, replans {len(ms)} "
-                f"({tally.refused} refused), {np.median(ms):.1f} / {np.percentile(ms, 99):.1f} ms, "
-                f"CPU {cpu - LONE_CPU[0]:.1f} s (lone {LONE_CPU[0]:.1f}), longest refusal {to_seconds(tally.longest):.0f} s, "
-                f"unserved {tally.unserved}",
-                flush=True,
+                f"{robots} {options.fleet}, {options.dispatch}, seed {seed}: {result}", flush=True
             )
 
 

@@ -170,7 +170,7 @@ def test_delays_are_taken_over():
             for s in first.trajectory.stops
         ),
     )
-    trips.retime({"a": late})
+    trips.retime({"a": late}, 0)
     run.past["a"] = [(0, trips.commitment("a"))]
     run.commit(trip("b", to(20.0, 8.0, 0.0, 5.0)), 0)
     assert trips.commitment("a").served == first.served + 20_000

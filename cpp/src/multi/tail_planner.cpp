@@ -114,6 +114,7 @@ Tail TailPlanner::search(const TailQuery& query, const Traffic* traffic, Budget&
   tour.traffic = traffic;
   tour.required = &required;
   tour.met = &met;
+  tour.minds_places = true;
   const std::int64_t before = budget.spent;
   Tail tail;
   tail.tour = (*search_)(tour, query.limit, budget);

@@ -246,7 +246,7 @@ void TourRun::look_ahead() {
 // at its place.
 void TourRun::find_earliest() {
   earliest_.assign(legs_.size(), 0);
-  if (!q_.traffic || q_.penalty || !s_.objective_.time) return;
+  if (!q_.minds_places || !q_.traffic || q_.penalty || !s_.objective_.time) return;
   Pose from = q_.start;
   Ticks t = q_.ready;
   for (std::size_t i = 0; i + 1 < legs_.size(); ++i) {

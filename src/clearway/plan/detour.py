@@ -7,7 +7,6 @@ from clearway.model import Obstacle, Trip
 from clearway.plan.cut import Kept
 from clearway.plan.tail_fleet import TailFleet
 
-LEAD = 500  # ticks from an obstacle's coming to light to the first change of a motion
 LOOK = 1000  # ticks between two places where a robot may stop
 PATIENCE = 8  # a search for a way round has so many times the usual effort
 
@@ -19,11 +18,13 @@ class Detour:
 
     In turn, whoever comes to the obstacle first goes first: to what is left of its trip, to any
     free bay, to a place before the obstacle that nobody crosses. Where there is none it stops
-    at once, and those who would run into it are planned anew as well.
+    at once, and those who would run into it are planned anew as well. No motion changes before
+    tick ``first``, but where the obstacle is reached sooner.
     """
 
-    def __init__(self, fleet: TailFleet, search: Search, limit: int, now: int) -> None:
-        self._fleet, self._search, self._limit, self._now = fleet, search, limit, now
+    def __init__(self, fleet: TailFleet, search: Search, limit: int, now: int, first: int) -> None:
+        self._fleet, self._search, self._limit = fleet, search, limit
+        self._now, self._first = now, first
 
     def around(self, obstacle: Obstacle) -> tuple[str, ...]:
         """Return the robots that had to be planned anew, in the order of their meetings."""
@@ -43,7 +44,7 @@ class Detour:
         fleet, now = self._fleet, self._now
         old = fleet.commitments[robot]
         trip = old.trip
-        kept = self._cut(robot, min(now + LEAD, until))
+        kept = self._cut(robot, min(self._first, until))
         if trip is not None and kept.ready < old.served:
             num_done = sum(stop.leave <= kept.ready for stop in old.trajectory.stops)
             if self._found(robot, kept, trip, num_done):

@@ -13,6 +13,7 @@ from clearway.plan.tail_fleet import TailFleet
 from clearway.protocols import Refusal
 
 TailParams = _core.TailParams
+LEAD = 500  # least ticks from an obstacle's coming to light to the first change of a motion
 LONE_LIMIT = 400_000  # expansions of a search with nobody else on the site
 
 
@@ -25,6 +26,8 @@ class TailTripsParams:
     search_limit
         Expansions of one search at effort 1; more finds more and costs more where there is
         nothing to find.
+    most_effort
+        Up to which effort counts; with more, hard trips cost more and begin a little sooner.
     most_rests
         Free bays that a tail may end in, the nearest to its last visit; more find more, and each
         estimate takes longer.
@@ -36,6 +39,7 @@ class TailTripsParams:
     """
 
     search_limit: int = 2000
+    most_effort: int = 4
     most_rests: int = 3
     patience: float = 60.0
     core: _core.TailParams = field(default_factory=_core.TailParams)
@@ -43,7 +47,7 @@ class TailTripsParams:
     def __post_init__(self) -> None:
         if not self.patience >= 0.0:
             raise ValueError(f"patience must be 0 or above, got {self.patience}")
-        for name in ("search_limit", "most_rests"):
+        for name in ("search_limit", "most_effort", "most_rests"):
             if getattr(self, name) < 1:
                 raise ValueError(f"{name} must be 1 or more, got {getattr(self, name)}")
 
@@ -76,7 +80,7 @@ class TailTrips:
         self.params = params or TailTripsParams()
         self._fleet = TailFleet(scenario, self.params.core, self.params.most_rests)
         self._counters: Counter[str] = Counter()
-        self._refused: dict[str, int] = {}  # since when
+        self._refused: dict[str, tuple[int, int]] = {}  # first and last tick, in a row
         self._park()
 
     @property
@@ -102,14 +106,13 @@ class TailTrips:
             return Refusal(f"an obstacle stands at its visit at {at}", ("obstacle",), for_good=True)
         kept = fleet.cut(robot, now, max(now + lead, old.served))
         query = fleet.query(robot, now, kept, trip.visits, rests)
-        query.limit = self.params.search_limit * effort
+        query.limit = self.params.search_limit * min(effort, self.params.most_effort)
         tail = self._search(query)
         spent = tail.expansions
         if not tail.found and tail.exhausted and self._is_closed(query):
             reason = "even with nobody else on the site no way leads through its visits to a bay"
             return Refusal(reason, for_good=True, expansions=spent)
-        waited = now - self._refused.setdefault(robot, now)
-        if not tail.found and waited >= to_ticks(self.params.patience):
+        if not tail.found and self._is_out_of_patience(robot, now):
             # With all at rest, the way from its bay and back is as good as alone.
             all_rest = max(fleet.core.settled(i) for i in range(len(fleet.ids)))
             kept = fleet.cut(robot, now, max(now + lead, all_rest))
@@ -121,7 +124,7 @@ class TailTrips:
         if not tail.found:
             causes = tuple(fleet.ids[i] for i in tail.met)
             return Refusal(f"no way found in {spent} expansions", causes, expansions=spent)
-        del self._refused[robot]
+        self._refused.pop(robot, None)
         return fleet.commit(robot, kept, tail, rests, trip)
 
     def commitment(self, robot: str) -> Commitment:
@@ -149,7 +152,8 @@ class TailTrips:
 
     def block(self, obstacle: Obstacle, now: int, lead: int = 0) -> tuple[str, ...]:
         """Learn of an obstacle; see `clearway.protocols.TripPlanner`."""
-        detour = Detour(self._fleet, self._search, self.params.search_limit, now)
+        first = now + max(lead, LEAD)
+        detour = Detour(self._fleet, self._search, self.params.search_limit, now, first)
         return detour.around(obstacle)
 
     def _search(self, query: _core.TailQuery) -> _core.Tail:
@@ -158,6 +162,15 @@ class TailTrips:
         self._counters["searches"] += 1
         self._counters["refused"] += not tail.found
         return tail
+
+    def _is_out_of_patience(self, robot: str, now: int) -> bool:
+        """Note a refusal; return whether the robot has been refused for too long."""
+        patience = to_ticks(self.params.patience)
+        first, last = self._refused.get(robot, (now, now))
+        if now - last > patience:  # it has not asked meanwhile
+            first = now
+        self._refused[robot] = first, now
+        return now - first >= patience
 
     def _is_closed(self, query: _core.TailQuery) -> bool:
         """Whether a trip is impossible with nobody else on the site."""

@@ -47,9 +47,9 @@ def lifelong_warehouse(
 ) -> Scenario:
     """Return a fleet in its bays, and orders from a pick place between shelves to a station.
 
-    Eight stations stand across along the right wall. Bays stand likewise, 24 along the left wall
-    and two between any two stations, with 0.4 m between bodies; five in line in the middle cross
-    aisle, and four along the wall of each half of the end aisles. Pick places lie in the aisles of
+    Eight stations stand across along each outer wall, and two bays between any two of them, with
+    0.4 m between bodies; five bays in line in the middle cross aisle, and six along the wall of
+    each half of the end aisles. Pick places lie in the aisles of
     4.5 m, 0.15 m from a shelf and in line with it, where another car can just pass; carriers
     also stand across, where none can.
 
@@ -73,7 +73,7 @@ def lifelong_warehouse(
         raise ValueError(f"fleet: cars or carriers drive in the warehouse, not {fleet!r}")
     kind = FLEETS[fleet][0]
     bays = _spread(_bay_centres(), robots)
-    stations = [Pose(WIDTH - 1.7, y, math.pi) for y in WALL_ROWS[1::3]]
+    stations = [place for y in WALL_ROWS[1::3] for place in _at_walls(y)]
     headings = (0.0, math.pi) if fleet == "cars" else (0.0, math.pi, math.pi / 2, -math.pi / 2)
     places = {
         "parking": bays,
@@ -118,13 +118,16 @@ def _zone(name: str, what: str, kind: RobotType, pose: Pose) -> Zone:
     return Zone(name, what, outline, pose)
 
 
+def _at_walls(y: float) -> tuple[Pose, Pose]:
+    return Pose(1.7, y, 0.0), Pose(WIDTH - 1.7, y, math.pi)
+
+
 def _bay_centres() -> list[Pose]:
-    bays = [Pose(1.7, y, 0.0) for y in WALL_ROWS]
-    bays += [Pose(WIDTH - 1.7, y, math.pi) for j, y in enumerate(WALL_ROWS) if j % 3 != 1]
+    bays = [bay for j, y in enumerate(WALL_ROWS) if j % 3 != 1 for bay in _at_walls(y)]
     bays += [Pose(50.0, y, math.pi / 2.0) for y in SHELF_ROWS[::2]]
     for left in SHELF_LEFT:
-        for share in (1, 2, 3, 4):
-            x = left + SHELF_LENGTH * share / 5.0
+        for share in (1, 2, 3, 4, 5, 6):
+            x = left + SHELF_LENGTH * share / 7.0
             bays += [Pose(x, 1.2, 0.0), Pose(x, HEIGHT - 1.2, math.pi)]
     return bays
 

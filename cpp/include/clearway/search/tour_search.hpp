@@ -30,8 +30,8 @@ struct Leg {
   Pose goal;
   Ticks service = 0;
   int body = 0;
-  double required = 0.0;  // gap to keep from obstacles on the way
-  Ticks not_before = 0;   // the service begins no sooner: who comes before then waits
+  double required = 0.0;          // gap to keep from obstacles on the way
+  Ticks not_before = 0;           // the service begins no sooner: who comes before then waits
   std::vector<Pose> others = {};  // goals that will do as well; of the last leg only
 };
 
@@ -67,8 +67,9 @@ struct TourQuery {
   const std::vector<double>* penalty = nullptr;   // soft search: cost of hitting each track;
                                                   // negative: it does not move away
   double below = std::numeric_limits<double>::infinity();  // ways that cost more are of no use
-  std::vector<Expanded>* trace = nullptr;                  // filled in the order of expansion
-  std::vector<std::int32_t>* met = nullptr;                // how often each track was in the way
+  bool minds_places = false;                 // ask beforehand when nobody is at the visits' places
+  std::vector<Expanded>* trace = nullptr;    // filled in the order of expansion
+  std::vector<std::int32_t>* met = nullptr;  // how often each track was in the way
 };
 
 struct TourStop {
