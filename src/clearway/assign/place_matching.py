@@ -37,9 +37,9 @@ def match_places(
     cost = np.empty((len(robots), len(places)))
     for k, robot in enumerate(robots):
         at, stations = bring[robot]
-        way = far[at, list(stations)][:, None] + far[np.ix_(stations, places)]
+        way = far[at, stations][:, None] + far[np.ix_(stations, places)]
         cost[k] = way.min(axis=0) + onward[robot]
         if robot == storing:
             cost[k, vacant:] = FAR
     rows, columns = linear_sum_assignment(cost)
-    return {robots[k]: places[c] for k, c in zip(rows, columns, strict=True)}
+    return {robots[k]: places[int(c)] for k, c in zip(rows, columns, strict=True)}
