@@ -37,7 +37,7 @@ class Late:
         self.now += STEP
         for robot, course in self.courses.items():
             granted = self.executor.grant(robot)
-            if self.rng.random() < self.stops:
+            if self.now >= self.stopped[robot] and self.rng.random() < self.stops:
                 self.stopped[robot] = self.now + self.rng.randrange(1000, 15000)
             if self.now >= self.stopped[robot]:
                 before = self.progress[robot]
@@ -98,6 +98,21 @@ class Late:
             for robot, (pieces, timing) in self.driven.items()
         }
         return overlaps(paths, types)
+
+
+def from_now(trajectory, now):
+    """A trajectory without what is before ``now``, which becomes tick 0."""
+    pieces, timing, start = [], [], trajectory.start
+    for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
+        if end <= now:
+            start = piece.end
+            continue
+        share = max(0, now - begin) / (end - begin)
+        twist = tuple((1.0 - share) * value for value in piece.twist)
+        pieces.append(replace(piece, start=piece.at(share), twist=twist))
+        timing.append((max(now, begin) - now, end - now))
+    start = pieces[0].start if pieces else start
+    return Trajectory(trajectory.robot, start, tuple(pieces), tuple(timing))
 
 
 def overlaps(paths, types):

@@ -86,6 +86,19 @@ def test_new_motion_through_granted_floor_is_refused():
         ledger.commit({"across": across}, 500)
 
 
+def test_the_chain_ends_at_the_robot_that_is_merely_slow():
+    """Third waits for north to leave (3, 3), which waits for east to leave (2, 2)."""
+    north = driven(
+        GRID, "north", [(2, y) for y in range(4)] + [(3, 3), (4, 3)], range(2500, 7500, 1000)
+    )
+    third = driven(GRID, "third", [(3, 5), (3, 4), (3, 3)], [7000, 8000])
+    ledger = RightOfWay(CellConflicts(GRID), 20_000)
+    ledger.commit({"east": EAST, "north": north, "third": third}, 0)
+    links = ledger.chain("third")
+    assert [(link.robot, link.other) for link in links] == [("third", "north"), ("north", "east")]
+    assert ledger.chain("east") == ()
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_late_robots_arrive_without_overlap(seed):
     """Stops of up to 15 s, three of ten robots slow, three of ten reports lost."""

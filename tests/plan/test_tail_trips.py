@@ -165,8 +165,10 @@ def test_delays_are_taken_over():
     late = replace(
         first.trajectory,
         timing=tuple((b + 20_000, e + 20_000) for b, e in first.trajectory.timing),
-        stops=tuple(replace(s, arrive=s.arrive + 20_000, leave=s.leave + 20_000)
-                    for s in first.trajectory.stops),
+        stops=tuple(
+            replace(s, arrive=s.arrive + 20_000, leave=s.leave + 20_000)
+            for s in first.trajectory.stops
+        ),
     )
     trips.retime({"a": late})
     run.past["a"] = [(0, trips.commitment("a"))]

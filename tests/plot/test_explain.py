@@ -238,6 +238,14 @@ def test_an_order_takes_a_robot_from_its_way_to_park() -> None:
     assert explain(run, "r1", 10.0)[0].order == "o1"
 
 
+def test_orders_take_a_moment_to_reach_a_robot() -> None:
+    """A tenth of a second between decision and drive is no standing; a whole second is."""
+    run = told(decision("r1", 10.0, "o1"), drive("r1", 10.1, 5.0))
+    assert [link.state for link in explain(run, "r1", 10.05)] == ["moving"]
+    run = told(decision("r1", 10.0, "o1"), drive("r1", 11.0, 5.0))
+    assert [link.state for link in explain(run, "r1", 10.05)] == ["not told"]
+
+
 @pytest.mark.parametrize(
     ("robot", "time", "mend"),
     [("r11", 5.0, "did you mean r1?"), ("r1", 100.5, "0 to 100.0 s"), ("r1", -1.0, "0 to 100.0")],

@@ -119,6 +119,26 @@ def test_a_click_on_a_bar_tells_why(desk: Visitor) -> None:
     )
 
 
+def test_the_timeline_tells_what_is_under_the_pointer(desk: Visitor, run: Trace) -> None:
+    """Over a robot's first service: its id, where it is at work, and for which order."""
+    first = next(e for e in run.of("visit") if e["robot"] == "agv-2" and e["state"] == "arrived")
+    canvas = desk.page.locator("#timeline canvas")
+    desk.run(f"clearway.seek({first['t'] + 1.0})")
+    desk.page.locator("#span").select_option("60")
+    canvas.scroll_into_view_if_needed()
+    desk.settle()
+    box = canvas.bounding_box()
+    assert box is not None
+    # The cursor lies over the moment shown, unless the minute begins with the run.
+    left = 24 + 7.6 * len("agv-12")
+    share = min(0.4, (first["t"] + 1.0) / 60.0)
+    x = left + share * (box["width"] - left - 12)
+    desk.page.mouse.move(box["x"] + x, box["y"] + 24 + 22 * 1.5)
+    tip = desk.page.locator("#timeline .tip").inner_text()
+    assert "agv-2" in tip and f"at work, {first['place']}" in tip
+    assert f"order {first['order']}" in tip
+
+
 def test_some_minutes_of_the_timeline_follow_the_replay(desk: Visitor) -> None:
     """With one minute shown, a click right of the cursor leads less than a minute on."""
     desk.page.locator("#span").select_option("60")

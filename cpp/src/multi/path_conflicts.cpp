@@ -96,29 +96,46 @@ class Waits {
 
   // All of b's part is before a's: told as it is when far from the planned times, else refined.
   void apart(const Part& a, const Part& b) {
-    const bool is_fine = std::max(a.motion, b.motion) <= params_.finest;
-    if (is_fine || a.begin - b.end >= std::max(a.size(), b.size())) {
+    if (is_finest(a, b)) {
       out_.push_back({a.begin, b.end});
-      return;
-    }
-    const Part& longer = a.motion >= b.motion ? a : b;
-    const Ticks middle = longer.half();
-    if (middle == longer.begin) {
-      out_.push_back({a.begin, b.end});
-    } else if (&longer == &a) {
-      tell(a.cut(a.begin, middle), b);
-      tell(a.cut(middle, a.end), b);
+    } else if (a.begin - b.end >= std::max(a.size(), b.size())) {
+      if (meets(a, b)) out_.push_back({a.begin, b.end});
     } else {
-      tell(a, b.cut(middle, b.end));
-      tell(a, b.cut(b.begin, middle));
+      halve(a, b, [this](const Part& p, const Part& q) {
+        tell(p, q);
+        return false;
+      });
     }
+  }
+
+  bool is_finest(const Part& a, const Part& b) const {
+    const Part& longer = a.motion >= b.motion ? a : b;
+    return longer.motion <= params_.finest || longer.end - longer.begin <= 1;
+  }
+
+  // Whether some pair of ticks is in conflict; none is overlooked, as parts get ever smaller.
+  bool meets(const Part& a, const Part& b) const {
+    if (clear(a, b)) return false;
+    if (is_finest(a, b) || gap_between(a, b, params_.margin) < params_.margin) return true;
+    return halve(a, b, [this](const Part& p, const Part& q) { return meets(p, q); });
+  }
+
+  // Visits both halves of the longer part, what leads to later passages first, until true.
+  template <typename Visit>
+  static bool halve(const Part& a, const Part& b, Visit&& visit) {
+    const bool is_a = a.motion >= b.motion;
+    const Part& longer = is_a ? a : b;
+    const Part early = longer.cut(longer.begin, longer.half());
+    const Part late = longer.cut(longer.half(), longer.end);
+    return is_a ? visit(early, b) || visit(late, b) : visit(a, late) || visit(a, early);
   }
 
   // Both are at the same ticks: only what the plan does not do is told.
   void together(const Part& a, const Part& b) {
     const Ticks middle = a.half();
     if (middle == a.begin || std::max(a.motion, b.motion) <= kHidden) {
-      if (gap_between(a, b, 0.0) < -kHidden) meeting_ = a.begin;
+      const bool is_first = meeting_ < 0 || a.begin < meeting_;
+      if (is_first && gap_between(a, b, 0.0) < -kHidden) meeting_ = a.begin;
       return;
     }
     tell(a.cut(a.begin, middle), b.cut(b.begin, middle));

@@ -28,17 +28,22 @@ class NearestOrderParams:
     age
         Metres that each second of waiting takes off; more makes old orders go sooner. Above 0, so
         that every order's turn comes.
+    refusal
+        Metres for each time that no way was found for it; more turns sooner to another order.
     alternatives
         How many other orders are told beside the chosen one.
     """
 
     crowd: float = 30.0
     age: float = 0.1
+    refusal: float = 10.0
     alternatives: int = 3
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.crowd) and self.crowd >= 0.0):
             raise ValueError(f"crowd must be 0 or above and finite, got {self.crowd}")
+        if not (math.isfinite(self.refusal) and self.refusal >= 0.0):
+            raise ValueError(f"refusal must be 0 or above and finite, got {self.refusal}")
         if not (math.isfinite(self.age) and self.age > 0.0):
             raise ValueError(f"age must be above 0 and finite, or orders starve; got {self.age}")
 
@@ -115,6 +120,8 @@ class NearestOrder:
         to = np.array([(o.visits[0].pose.x, o.visits[0].pose.y) for o in orders])
         away = np.linalg.norm(at[:, None, :] - to[None, :, :], axis=2)
         age = np.array([to_seconds(board.now) - order.release for order in orders])
+        refused = np.array([board.refusals.get(order.task.id, 0) for order in orders])
+        away = away + self.params.refusal * refused
         costs: Floats = away + self.params.crowd * self._crowd(orders) - self.params.age * age
         for i, view in enumerate(idle):
             for j, order in enumerate(orders):

@@ -147,12 +147,15 @@ class Coordinator:
         if isinstance(outcome, Refusal):
             pause = min(self._params.retry * 2**times, self._params.most_retry)
             self._refused[trip.robot] = (times + 1, board.now + pause)
+            if trip.order is not None:
+                board.refusals[trip.order] = board.refusals.get(trip.order, 0) + 1
             return Told(choice, outcome, spent)
         self._refused.pop(trip.robot, None)
         self._completes[trip.robot] = choice.completes
         self._see(trip.robot, trip=trip, ready=outcome.served)
         if trip.order is not None:
             board.taken[trip.order] = trip.robot
+            board.refusals.pop(trip.order, None)
         return Told(choice, outcome, spent)
 
     def _end_trips(self, seen: Observation) -> list[str]:

@@ -43,8 +43,8 @@ class BodyConflicts:
             needed = margin + LEAST_CLEARANCE
             if robot_type.clearance < needed:
                 raise ValueError(
-                    f"robot type {robot_type.name}: a clearance of {robot_type.clearance} m is too "
-                    f"little to keep the order of passage under delay; give it {needed} m or more"
+                    f"robot type {robot_type.name}: a clearance of {robot_type.clearance:g} m is "
+                    f"too little to go on under delay; give it {needed:g} m or more"
                 )
         self._types = dict(types)
         self._bodies = {robot: _bodies(kind) for robot, kind in types.items()}

@@ -81,9 +81,8 @@ class Course:
             return tick
         if stretch.visit is not None:
             return stretch.end
-        following = self.index(stretch.end)
-        after = self.stretches[min(following, len(self.stretches) - 1)]
-        return after.end if after.visit is not None else stretch.end
+        following = self.stretches[self.index(stretch.end)]
+        return following.end if following.visit is not None else stretch.end
 
     def skipped(self, tick: int, now: int) -> int:
         """Return how far a late robot has come that does not wait for the time of its plan.

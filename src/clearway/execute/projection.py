@@ -1,5 +1,6 @@
 """When robots will be where, if nothing holds them up but each other."""
 
+from bisect import bisect_left, bisect_right
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -25,12 +26,17 @@ class _Item:
 
 @dataclass(frozen=True)
 class _Hold:
-    """An item may begin ``lead`` ticks before another robot has passed a tick, no sooner."""
+    """An item begins ``lead`` ticks before another robot has passed a tick, no sooner.
+
+    That is ``offset`` after the begin of its item ``passes`` (if any), and not before ``least``.
+    """
 
     item: int
     lead: int
     other: str
-    passed: int
+    passes: int
+    offset: int
+    least: int
 
 
 def project(
@@ -60,7 +66,7 @@ def project(
         is cut where it is. Those of robots that keep their times are as they were.
     """
     items = {robot: _left(courses[robot], progress[robot], now) for robot in courses}
-    holds = {robot: _holds(items[robot], unmet[robot]) for robot in courses}
+    holds = {robot: _holds(robot, items, unmet[robot], now) for robot in courses}
     waiting = defaultdict(set)
     for robot, each in holds.items():
         for hold in each:
@@ -69,7 +75,7 @@ def project(
     while todo:
         robot = next(iter(todo))
         del todo[robot]
-        if _push(items, holds[robot], robot, progress, now):
+        if _push(items, holds[robot], robot):
             todo.update(dict.fromkeys(sorted(waiting[robot])))
     return {robot: _trajectory(courses[robot], progress[robot], items[robot]) for robot in courses}
 
@@ -87,43 +93,36 @@ def _left(course: Course, progress: int, now: int) -> list[_Item]:
     return items
 
 
-def _holds(items: Sequence[_Item], unmet: Sequence[Precedence]) -> list[_Hold]:
-    holds = []
+def _holds(
+    robot: str, items: Mapping[str, list[_Item]], unmet: Sequence[Precedence], now: int
+) -> list[_Hold]:
+    mine, holds = items[robot], []
     for each in unmet:
-        for k, item in enumerate(items):
-            if each.at < item.stretch.end:
-                lead = max(0, each.at - item.planned)
-                holds.append(_Hold(k, lead, each.other, each.passed))
-                break
+        k = bisect_right(mine, each.at, key=lambda item: item.stretch.end)
+        if k == len(mine):
+            continue
+        lead = max(0, each.at - mine[k].planned)
+        its = items[each.other]
+        # The item in which the other passes, or after which it waits meanwhile.
+        m = bisect_left(its, each.passed, key=lambda item: item.planned) - 1
+        left = its[m].stretch.end - its[m].planned if m >= 0 else 0
+        offset = min(each.passed - its[m].planned, left) if m >= 0 else 0
+        waits = m < 0 or each.passed > its[m].stretch.end
+        least = max(now, each.passed) if waits else now
+        holds.append(_Hold(k, lead, each.other, m, offset, least))
     return holds
 
 
-def _passes(items: Sequence[_Item], tick: int, now: int) -> int:
-    """Return when a robot will have passed a tick of its course."""
-    last = max(now, tick)
-    for item in items:
-        if tick <= item.planned:
-            return last
-        if tick <= item.stretch.end:
-            return item.begin + tick - item.planned
-        last = max(item.end, tick)
-    return last
-
-
-def _push(
-    items: Mapping[str, list[_Item]],
-    holds: Sequence[_Hold],
-    robot: str,
-    progress: Mapping[str, int],
-    now: int,
-) -> bool:
+def _push(items: Mapping[str, list[_Item]], holds: Sequence[_Hold], robot: str) -> bool:
     """Put off what must wait; return whether anything was."""
     mine = items[robot]
     changed = False
     for hold in holds:
-        earliest = _passes(items[hold.other], hold.passed, now) - hold.lead
-        if earliest > mine[hold.item].begin:
-            mine[hold.item].begin = earliest
+        earliest = hold.least
+        if hold.passes >= 0:
+            earliest = max(earliest, items[hold.other][hold.passes].begin + hold.offset)
+        if earliest - hold.lead > mine[hold.item].begin:
+            mine[hold.item].begin = earliest - hold.lead
             changed = True
     for one, following in pairwise(mine):
         if one.end > following.begin:

@@ -1,5 +1,6 @@
 """How far a robot has come on the new motion that replaces the one it was on."""
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -46,28 +47,25 @@ class Resumption:
 
     def at(self, tick: int) -> int | None:
         """Return the new tick for one up to which the robot may go: in a wait, the end of it."""
-        for old, new in self.pairs:
-            if tick <= old.begin:
-                return new.begin
-            if tick < old.end:
-                return max(self.progress, new.end - (old.end - tick))
-        return None
+        k = bisect_right(self.pairs, tick, key=_old_end)
+        if k == len(self.pairs):
+            return None
+        old, new = self.pairs[k]
+        return max(self.progress, new.end - (old.end - max(tick, old.begin)))
 
-    def passed(self, tick: int) -> int | None:
-        """Return the new tick for one that the robot will have passed; ``None`` within a wait.
+    def passed(self, tick: int) -> int:
+        """Return the new tick for one that the robot will have passed: in a wait, its begin.
 
-        All that is not common any more is passed where what is common ends.
+        While it waits the robot is in nobody's way but from where it came to stand, so whoever
+        is in conflict with it there waits for the end of the wait. All that is not common any
+        more is passed where what is common ends.
         """
-        before, after = self.was, self.progress
-        for old, new in self.pairs:
-            if tick <= before:
-                return after
-            if tick <= old.begin:
-                return None
-            if tick <= old.end:
-                return new.end - (old.end - tick)
-            before, after = old.end, new.end
-        return after if tick <= before or not self.is_retimed else None
+        k = bisect_left(self.pairs, tick, key=_old_end)
+        after = self.pairs[k - 1][1].end if k > 0 else self.progress
+        if k == len(self.pairs) or tick <= self.pairs[k][0].begin:
+            return after
+        old, new = self.pairs[k]
+        return max(after, new.end - (old.end - tick))
 
 
 def carried_over(
@@ -75,7 +73,7 @@ def carried_over(
 ) -> tuple[Precedence, ...] | None:
     """Return what a robot waits for in new ticks, as far as both paths are what they were.
 
-    ``None`` where some tick has no like or the new times do not keep the order of passage.
+    ``None`` where the new times do not keep the order of passage.
 
     Parameters
     ----------
@@ -88,7 +86,7 @@ def carried_over(
         if at is None and mine and not mine.is_retimed:
             continue
         passed = its.passed(step.passed) if its else step.passed
-        if at is None or passed is None or passed > at:
+        if at is None or passed > at:
             return None
         kept.append(Precedence(at, step.other, passed))
     return tuple(kept)
@@ -132,6 +130,10 @@ def resume(robot: str, old: Course, new: Course, progress: int, now: int) -> Res
 def _busy(course: Course, tick: int) -> list[Stretch]:
     """Return what a robot still does from a tick on, waits left out."""
     return [each for each in course.stretches[course.index(tick) :] if not each.is_wait]
+
+
+def _old_end(pair: tuple[Stretch, Stretch]) -> int:
+    return pair[0].end
 
 
 def _times(stretch: Stretch) -> tuple[int, int]:

@@ -98,7 +98,9 @@ class RightOfWay:
                 entries[robot] = _Entry(commitment, course, known.progress, known.granted)
                 continue
             resumed[robot] = there = resume(robot, known.course, course, known.progress, now)
-            granted = max(there.granted(known.granted), course.stands_until(there.progress))
+            # Nobody is ahead of new times, so what they put off is granted when it is time.
+            granted = min(there.granted(known.granted), now + self.look_ahead)
+            granted = max(granted, course.stands_until(there.progress))
             entries[robot] = _Entry(commitment, course, there.progress, granted)
         changed = [r for r in commitments if r in resumed or r not in self._entries]
         stairs = {robot: dict(others) for robot, others in self._stairs.items()}
@@ -107,7 +109,10 @@ class RightOfWay:
             for robot, against, precedences in zip((one, other), (other, one), found, strict=True):
                 steps = _open_steps(precedences, entries[robot], entries[against])
                 _check_granted(robot, steps, entries)
-                stairs.setdefault(robot, {})[against] = Staircase(steps)
+                if steps:
+                    stairs.setdefault(robot, {})[against] = Staircase(steps)
+                else:
+                    stairs.get(robot, {}).pop(against, None)
         self._entries, self._stairs = entries, stairs
         self._now = max(self._now, now)
 
@@ -129,7 +134,10 @@ class RightOfWay:
         self._now = max(self._now, progress)
 
     def grant(self, robot: str) -> int:
-        """Return up to which tick of its trajectory a robot may go; it never shrinks."""
+        """Return up to which tick of its trajectory a robot may go; it never shrinks.
+
+        Standing takes no more floor, so a grant that ends in a wait reaches to the end of it.
+        """
         entry = self._entries[robot]
         binding = self.why(robot)
         limit = self._cap(entry) if binding is None else binding.at
@@ -143,11 +151,26 @@ class RightOfWay:
     def why(self, robot: str) -> Binding | None:
         """Return what limits a robot's grant, if it is another robot: the first in its way."""
         cap, first = self._cap(self._entries[robot]), None
-        for other, stairs in self._stairs.get(robot, {}).items():
-            step = stairs.first(self._come(other))
-            if step and step.at < cap and (first is None or (step.at, other) < first[:2]):
+        stairs = self._stairs.get(robot, {})
+        for other in list(stairs):
+            step = stairs[other].first(self._entries[other].progress)
+            if step is None:
+                del stairs[other]
+            elif step.at < cap and (first is None or (step.at, other) < first[:2]):
                 first = (step.at, other, step.passed)
         return first and Binding(robot, first[1], first[0], first[2])
+
+    def chain(self, robot: str) -> tuple[Binding, ...]:
+        """Return what holds a robot, what holds that one before it has passed, and so on.
+
+        It ends, as each is held at an earlier tick than the one before.
+        """
+        links: list[Binding] = []
+        link = self.why(robot)
+        while link is not None and (not links or link.at < links[-1].passed):
+            links.append(link)
+            link = self.why(link.other)
+        return tuple(links)
 
     def reserve(self, robot: str) -> tuple[int, int]:
         """Return from which tick to which a robot's motion is its own."""
@@ -155,16 +178,19 @@ class RightOfWay:
         return entry.progress, entry.granted
 
     def projected(self, now: int) -> Mapping[str, Trajectory]:
-        """Return everybody's paths at the times to expect if nobody is held up any more."""
+        """Return everybody's paths at the times to expect if nobody is held up any more.
+
+        Committed, they put all robots on time again; so report everybody's progress before.
+        """
         courses = {robot: entry.course for robot, entry in self._entries.items()}
-        progress = {robot: self._come(robot, now) for robot in courses}
+        progress = {r: e.course.skipped(e.progress, now) for r, e in self._entries.items()}
         unmet = {robot: self.unmet(robot) for robot in courses}
         return project(courses, progress, unmet, now)
 
     def unmet(self, robot: str) -> tuple[Precedence, ...]:
         """Return all that a robot still waits for, if not at once."""
-        stairs = self._stairs.get(robot, {})
-        return tuple(s for other, each in stairs.items() for s in each.unmet(self._come(other)))
+        stairs, come = self._stairs.get(robot, {}), self._entries
+        return tuple(s for other in stairs for s in stairs[other].unmet(come[other].progress))
 
     def overlapping(self, overlap: Overlap) -> tuple[tuple[str, str], ...]:
         """Return the pairs of robots whose reserves meet, which must be none; looks at all pairs.
@@ -181,11 +207,6 @@ class RightOfWay:
     def commitment(self, robot: str) -> Commitment:
         """Return what a robot is committed to."""
         return self._entries[robot].commitment
-
-    def _come(self, robot: str, now: int = 0) -> int:
-        """Return how far a robot has come, waits that are over by now counted in."""
-        entry = self._entries[robot]
-        return entry.course.skipped(entry.progress, max(now, self._now))
 
     def _cap(self, entry: _Entry) -> int:
         """Return the end of the look-ahead; to stand on takes no more floor."""

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 
-from clearway.execute.course import NEVER
 from clearway.protocols import Precedence
 
 
@@ -22,19 +21,12 @@ class Staircase:
         self._steps = steps
         self._next = 0
 
-    def unmet(self, progress: int) -> tuple[Precedence, ...]:
-        """Return what the other has not passed yet; its progress never goes back."""
-        while self._next < len(self._steps) and self._steps[self._next].passed <= progress:
-            self._next += 1
-        return self._steps[self._next :]
-
     def first(self, progress: int) -> Precedence | None:
-        """Return the first step that is not met."""
+        """Return the first step that the other has not passed; its progress never goes back."""
         while self._next < len(self._steps) and self._steps[self._next].passed <= progress:
             self._next += 1
         return self._steps[self._next] if self._next < len(self._steps) else None
 
-    def limit(self, progress: int) -> int:
-        """Return up to which tick the robot may go."""
-        step = self.first(progress)
-        return NEVER if step is None else step.at
+    def unmet(self, progress: int) -> tuple[Precedence, ...]:
+        """Return all steps that the other has not passed."""
+        return self._steps[self._next :] if self.first(progress) else ()

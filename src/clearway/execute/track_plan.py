@@ -1,9 +1,9 @@
 """Executor for robots that are never late: all may go where their plans say, when they say so."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from clearway.model import Commitment, Trajectory
-from clearway.protocols import Binding
+from clearway.protocols import Binding, Precedence
 
 
 class TrackPlan:
@@ -39,6 +39,10 @@ class TrackPlan:
     def why(self, robot: str) -> Binding | None:
         """Nobody is held by another."""
         return None
+
+    def unmet(self, robot: str) -> Sequence[Precedence]:
+        """Nobody waits for another."""
+        return ()
 
     def projected(self, now: int) -> Mapping[str, Trajectory]:
         """Return everybody's trajectories as committed."""

@@ -152,7 +152,9 @@ class LaneTrips:
         whose way it then is are committed anew likewise.
         """
         self.changed = ()
-        detours = LaneDetours(self._ways, self._committed, self._loaded, now, max(lead, self._notice), LIMIT)
+        detours = LaneDetours(
+            self._ways, self._committed, self._loaded, now, max(lead, self._notice), LIMIT
+        )
         return detours(obstacle)
 
     def route_length(self, start: Cell, goal: Cell) -> float:

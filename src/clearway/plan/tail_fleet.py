@@ -43,6 +43,8 @@ class TailFleet:
             kind.name: NativeType(i, kind, scenario.site, reach) for i, kind in enumerate(types)
         }
         self._site = scenario.site
+        # What stands in the way of each type's bodies, for each obstacle that has come to light.
+        self._found: list[dict[str, list[_core.Statics]]] = []
         self._zones: dict[str, Zone] = {zone.name: zone for zone in scenario.site.zones}
         self._most_rests = most_rests
         self.core = _core.TailPlanner(
@@ -159,10 +161,19 @@ class TailFleet:
         pose = _core.Pose(*trajectory.start)
         self.core.place(self._numbers[robot], now, pose, timed, body)
 
+    def barred(self, robot: str, visits: Sequence[Visit]) -> Visit | None:
+        """Return the first visit at whose pose an obstacle stands that has come to light."""
+        kind = self.type(robot)
+        for visit in visits:
+            if not all(kind.is_clear(of_it[kind.type.name], visit.pose) for of_it in self._found):
+                return visit
+        return None
+
     def obstruct(self, obstacle: Obstacle, now: int) -> dict[str, int]:
         """Put an obstacle on the site; return whose motion is clear of it up to which tick only."""
         alone = replace(self._site, obstacles=(obstacle,), border="open")
         of_it = {kind.type.name: kind.statics(alone) for kind in self._types.values()}
+        self._found.append(of_it)
         self._site = replace(self._site, obstacles=(*self._site.obstacles, obstacle))
         self.core.rebuild([kind.statics(self._site) for kind in self._types.values()])
         self.bays = [

@@ -96,6 +96,10 @@ class TailTrips:
         rests = fleet.free(trip.rests, robot, trip.visits[-1].pose)
         if trip.rests and not rests:
             return Refusal("no bay is free", fleet.holders(trip.rests))
+        barred = fleet.barred(robot, trip.visits)
+        if barred is not None:
+            at = f"({barred.pose.x:.1f}, {barred.pose.y:.1f})"
+            return Refusal(f"an obstacle stands at its visit at {at}", ("obstacle",), for_good=True)
         kept = fleet.cut(robot, now, max(now + lead, old.served))
         query = fleet.query(robot, now, kept, trip.visits, rests)
         query.limit = self.params.search_limit * effort

@@ -2,7 +2,7 @@
 
 from bisect import bisect_right
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +20,7 @@ class Hold(NamedTuple):
     robot: str
 
 
-@dataclass
+@dataclass(frozen=True)
 class Diary:
     """One robot's part of a trace.
 
@@ -36,11 +36,11 @@ class Diary:
 
     robot: Robot
     track: Track
-    doings: list[Doing] = field(default_factory=list)
-    trips: list[Span] = field(default_factory=list)
-    visits: list[Span] = field(default_factory=list)
-    loads: list[Event] = field(default_factory=list)
-    energy: list[Event] = field(default_factory=list)
+    doings: list[Doing]
+    trips: list[Span]
+    visits: list[Span]
+    loads: list[Event]
+    energy: list[Event]
 
     def doing(self, time: float) -> Doing:
         """Return what it does at a moment of the run."""
@@ -57,7 +57,7 @@ class Diary:
         return self.trips[index] if index >= 0 else None
 
 
-@dataclass
+@dataclass(frozen=True)
 class Chronicle:
     """A trace by robot, by order and by place.
 

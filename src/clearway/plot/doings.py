@@ -14,6 +14,8 @@ Event = Mapping[str, Any]
 
 # A turn on the way that is over sooner (s) is a part of the drive.
 _SHORT = 0.05
+# Standing on a trip for less (s), before anything else: orders take a moment to reach a robot.
+_REACTION = 0.25
 
 
 class Span(NamedTuple):
@@ -90,8 +92,10 @@ def doings(
         # Moves, idleness and standing have no event of their own: theirs are all empty.
         if found and found[-1].kind == kind and (found[-1].event is event or not event):
             found[-1] = found[-1]._replace(end=end)
-        else:
-            found.append(Doing(kind, start, end, event))
+            continue
+        if found and found[-1].kind == "stand" and found[-1].end - found[-1].start < _REACTION:
+            start = found.pop().start
+        found.append(Doing(kind, start, end, event))
     return found or [Doing("idle", 0.0, duration, {})]
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
+from matplotlib.ticker import LogLocator
 from numpy.typing import NDArray
 
 from clearway.model import Pose, Robot, Site, Trace, Track, tracks_of
@@ -79,7 +80,9 @@ def _draw_traffic(axes: Axes, site: Site, tracks: list[Track]) -> None:
     )
     figure = axes.get_figure(root=True)
     assert figure is not None
-    bar = figure.colorbar(picture, ax=axes, shrink=0.6, pad=0.01, format="%g")
+    ticks = LogLocator(subs=(1.0, 2.0, 5.0))
+    bar = figure.colorbar(picture, ax=axes, shrink=0.6, pad=0.01, format="%g", ticks=ticks)
+    bar.ax.minorticks_off()
     bar.set_label("passages")
 
 

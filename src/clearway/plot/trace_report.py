@@ -60,7 +60,7 @@ def _what_it_is(happened: Chronicle, metrics: TraceMetrics) -> list[str]:
     who = count(len(trace.robots), "robot")
     first = (
         f"{who} at work for {clock(happened.duration)}"
-        f" on a site of {extent(trace.site.bounds)}, as {trace.system}."
+        f" on a site of {extent(trace.site.bounds)}; the system is {trace.system}."
     )
     if not metrics.orders:
         return [first]

@@ -47,8 +47,12 @@ class Binding:
 class Executor(Protocol):
     """Grants robots stretches of their committed trajectories, in the plan's order of passage.
 
-    Progress is told in ticks of the robot's own trajectory: that of a robot on time is now.
+    Progress is told in ticks of the robot's own trajectory: that of a robot on time is now. Grants
+    reach at most ``look_ahead`` ticks of motion beyond it, so new motion must begin no sooner than
+    that after the tick at which it is committed.
     """
+
+    look_ahead: int
 
     def commit(self, commitments: Mapping[str, Commitment], now: int) -> None:
         """Take over new commitments; other robots keep theirs and all that is granted."""
@@ -64,6 +68,10 @@ class Executor(Protocol):
 
     def why(self, robot: str) -> Binding | None:
         """Return what limits a robot's grant, if it is another robot."""
+        ...
+
+    def unmet(self, robot: str) -> Sequence[Precedence]:
+        """Return all that a robot still waits for on its path, if not at once."""
         ...
 
     def projected(self, now: int) -> Mapping[str, Trajectory]:

@@ -119,13 +119,15 @@ class Board:
     """What is known at one moment: robots, open orders, and what has changed since the last.
 
     ``open`` holds orders by id in the order of their arrival, each until a trip that serves it
-    ends it. ``taken`` tells whose order is whose.
+    ends it. ``taken`` tells whose order is whose, ``refusals`` how often in a row a trip that
+    begins an order has been refused.
     """
 
     now: int
     robots: dict[str, RobotView]
     open: dict[str, Order] = field(default_factory=dict)
     taken: dict[str, str] = field(default_factory=dict)
+    refusals: dict[str, int] = field(default_factory=dict)
     arrived: tuple[str, ...] = ()
     ended: tuple[TripEnded, ...] = ()
 

@@ -220,13 +220,25 @@ class Disturbed:
             mover.progress = min(target, tick)
             if mover.progress == target:
                 return tick
-        for wait in mover.waits:
-            if wait.begin <= mover.progress < (wait.end or wait.begin) != mover.told_wait:
-                mover.told_wait = wait.end or wait.begin
-                occurred.append(Occurrence(tick, robot, "waits", wait=replace(wait, begin=tick)))
+        if mover.told_wait != target:
+            mover.told_wait = target
+            wait = self._planned_wait(robot, mover, tick, target)
+            occurred.append(Occurrence(tick, robot, "waits", wait=wait))
         lasts = min(target - mover.progress, end - tick)
         mover.progress += lasts
         return tick + lasts
+
+    def _planned_wait(self, robot: str, mover: _Mover, tick: int, target: int) -> Wait:
+        """Return for whom a robot stands until tick ``target`` of its path."""
+        for wait in mover.waits:
+            if wait.end is not None and wait.begin <= mover.progress < wait.end:
+                return replace(wait, begin=tick)
+        ends = [end for first, end in mover.path.timing if first == target]
+        for step in self._executor.unmet(robot):
+            if ends and target <= step.at < ends[0]:
+                because = f"{step.other} goes first there by the plan"
+                return Wait(tick, target, (step.other,), because)
+        return Wait(tick, target, ("plan",), "its motion begins then by the plan")
 
     def _drive(
         self,

@@ -159,6 +159,9 @@ function drawBody(ctx, camera, ink, robot, time, isChosen) {
   ctx.restore();
 }
 
+// Beside more bodies than these, ids would hide each other and the bodies.
+const FEW_NAMES = 60;
+
 /** The id on the body where it fits, otherwise beside it; in a plan the mode below the chosen one. */
 function drawName(ctx, camera, ink, robot, time, isChosen) {
   const pose = poseAt(robot, time);
@@ -178,7 +181,7 @@ function drawName(ctx, camera, ink, robot, time, isChosen) {
   if (ctx.measureText(name).width < room && size < room) {
     ctx.fillStyle = inkOn(robot.colour);
     ctx.fillText(name, x, y);
-  } else {
+  } else if (isChosen || robots.length <= FEW_NAMES) {
     haloText(ctx, ink, name, x, y - Math.min(above, 0.5 * (half * camera.scale + above)) - 8);
   }
   if (isChosen && !data.is_run) {

@@ -10,8 +10,9 @@ class Inspector {
     this.fields = {};
     // What a robot of a run does stands below, with the reason.
     const names = data.is_run
-      ? { type: "Type", speed: "Speed", task: "Order", load: "Load", near: "Nearest robot", energy: "Energy" }
+      ? { type: "Type", speed: "Speed", task: "Order", load: "Load", near: "Nearest robot" }
       : { type: "Type", doing: "Doing", speed: "Speed", task: "Task", load: "Load", near: "Nearest robot" };
+    if (data.curves?.energy) names.energy = "Energy";
     this.heading = make("h2");
     this.hint = make("p", { class: "hint" },
       "Choose a robot here, on the floor or with [ and ] to see what it does.");

@@ -19,7 +19,7 @@ function readInk() {
   const names = ["floor", "outside", "grid", "edge", "zone", "zone-shelf", "zone-charger",
     "zone-edge", "zone-text", "closed", "obstacle", "obstacle-edge", "text", "muted", "plate", "focus",
     "surface", "line", "chosen", "shelf", "fault", "drive", "turn", "wait", "service", "on-service",
-    "charge", "waiting", "cursor"];
+    "charge", "waiting", "load", "cursor"];
   ink = { font: style.getPropertyValue("--font") };
   for (const name of names) {
     const key = name.replace(/-(\w)/, (_, letter) => letter.toUpperCase());

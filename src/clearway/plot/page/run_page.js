@@ -7,6 +7,7 @@ function makeContent(player, choose, go) {
   const timeline = new Timeline(byId("timeline"), byId("span"), player, choose);
   const charts = chartsOf().map((chart) => new Chart(byId("curves"), chart, player));
   showBars(byId("bars"));
+  document.querySelector(".key .shelf").closest("li").hidden = !placeBoxes.size;
   byId("figures").append(...data.figures.map(([name, value, note]) => make("div", {},
     make("dt", {}, name), make("dd", { class: "value" }, value),
     note ? make("dd", { class: "note" }, note) : null)));

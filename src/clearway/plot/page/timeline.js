@@ -7,11 +7,13 @@ const BARS = {
 };
 // Middle band of a row: kinds differ in height as well as in colour.
 const BAR = {
-  drive: 6, turn: 6, service: 16, charge: 16, wait: 14, stop: 16, refused: 16, stand: 3,
+  drive: 6, turn: 6, service: 14, charge: 14, wait: 12, stop: 14, refused: 14, stand: 3,
 };
 const SPANS = [["the whole run", Infinity], ["30 min", 1800], ["10 min", 600], ["3 min", 180], ["1 min", 60]];
 const LINE = 22;
 const HEAD = 24;
+// Browsers draw no canvas that is taller (pixels).
+const TALLEST = 16000;
 
 class Timeline {
   constructor(holder, select, player, choose) {
@@ -101,8 +103,10 @@ class Timeline {
     if (!bar) return;
     const [kind, from, to, label] = bar;
     const what = kind === "wait" ? `waiting for ${label}` : `${DOING[kind]}${label ? `, ${label}` : ""}`;
-    this.tip.replaceChildren(make("b", {}, robot.id), make("span", {},
-      `${what}: ${clockText(from / 1000)} to ${clockText(to / 1000)} (${fixed((to - from) / 1000)} s)`));
+    const trip = tripAt(robot, clamp(this.secondsAt(x), 0, duration));
+    const errand = trip && trip[2] ? make("div", {}, `${trip[2]}${trip[3] ? `, order ${trip[3]}` : ""}`) : "";
+    this.tip.replaceChildren(make("b", {}, robot.id), make("div", {},
+      `${what}: ${clockText(from / 1000)} to ${clockText(to / 1000)} (${fixed((to - from) / 1000)} s)`), errand);
     const wide = this.tip.offsetWidth;
     const below = y + 18 + this.tip.offsetHeight < this.height ? y + 18 : y - this.tip.offsetHeight - 8;
     this.tip.style.transform = `translate(${clamp(x + 12, 0, Math.max(0, this.width - wide - 4))}px, ${Math.max(0, below)}px)`;
@@ -113,9 +117,9 @@ class Timeline {
     if (!width) return;
     this.frame = this.view;
     if (this.key && !this.isSeen) return;
-    const sharp = Math.min(3, window.devicePixelRatio || 1);
-    const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     [this.width, this.height] = [width, HEAD + LINE * robots.length + 4];
+    const sharp = Math.min(3, window.devicePixelRatio || 1, TALLEST / this.height);
+    const longest = Math.max(...robots.map((robot) => robot.id.length), 3);
     this.letters = clamp(longest, 3, width < 600 ? 8 : 16);
     this.left = 24 + 7.6 * this.letters;
     const key = [width, sharp, ink.floor, chosen && chosen.index, ...this.frame].join();
@@ -179,7 +183,21 @@ class Timeline {
     }
   }
 
+  /** A thin line below the bars where something is on board. */
+  drawLoads(pen, robot, middle, ink) {
+    const [from, to] = this.frame;
+    const spans = robot.carrying;
+    pen.fillStyle = ink.load;
+    for (let k = Math.max(0, lastBefore(spans.length, (i) => spans[i][0], 1000 * from));
+      k < spans.length && spans[k][0] < 1000 * to; k += 1) {
+      const x = Math.max(this.left, this.xOf(spans[k][0] / 1000));
+      const end = this.xOf(Math.min(to, spans[k][1] / 1000));
+      if (end > x) pen.fillRect(x, middle + 8, end - x, 2.4);
+    }
+  }
+
   drawRow(pen, robot, middle, ink) {
+    this.drawLoads(pen, robot, middle, ink);
     const [from, to] = this.frame;
     const bars = robot.activities;
     const colour = { ...ink, wait: ink.waiting, stop: ink.fault, refused: ink.fault, stand: ink.wait };
@@ -220,4 +238,7 @@ function showBars(list) {
         ...(kind === "wait" ? [0, 4, 8, 12, 16, 20].map((x) => box(x, 2)) : [box(0.5, 23)])),
       name));
   }
+  if (!robots.some((robot) => robot.carrying.length)) return;
+  list.append(make("li", {}, makeSvg("svg", { viewBox: "0 0 24 18", class: "wide legend" },
+    makeSvg("rect", { x: 0.5, y: 8, width: 23, height: 2.4, class: "bar-load" })), "with a load"));
 }
