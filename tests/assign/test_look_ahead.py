@@ -125,3 +125,9 @@ def test_who_rests_under_a_shelf_fetches_it() -> None:
     log = run(scenario, LookAhead(scenario))
     fetches = {c.trip.robot: c.trip.goals[0] for b, _, c in log.driven if c.trip.purpose == "fetch"}
     assert fetches == {robot.id: shelf for robot, shelf in zip(base.robots, under, strict=True)}
+
+
+def test_settings_that_cannot_be_are_named() -> None:
+    for name, value in (("rounds", 0), ("every", 0), ("patience", 0.0), ("top_up", 1.5)):
+        with pytest.raises(ValueError, match=f"{name} must be"):
+            LookAheadParams(**{name: value})  # type: ignore[arg-type]

@@ -29,10 +29,16 @@ FORK = replace(CART, name="fork", capabilities=frozenset({"lift"}))
 SHELF = Obstacle(polygon=((20.0, 40.0), (80.0, 40.0), (80.0, 42.0), (20.0, 42.0)))  # two aisles
 
 
-def order(name: str, x: float, y: float, release: float = 0.0, **more: object) -> Order:
+DOCK = Pose(95.0, 5.0, 0.0)
+
+
+def order(
+    name: str, x: float, y: float, release: float = 0.0, to: Pose | None = None, **more: object
+) -> Order:
+    """Pick at a pose; drop there too where it is not told, so that only the way there counts."""
     visits = (
         Visit(name, Pose(x, y, 0.0), 5.0, "pick", needs=more.pop("needs", None)),  # type: ignore[arg-type]
-        Visit(name, Pose(95.0, 5.0, 0.0), 5.0, "drop"),
+        Visit(name, to or Pose(x, y, 0.0), 5.0, "drop"),
     )
     robot = more.pop("robot", None)
     return Order(Task(name, visits, robot=robot), release, **more)  # type: ignore[arg-type]
@@ -42,7 +48,7 @@ def hall(*robots: tuple[str, float, float], kind: RobotType = CART) -> Scenario:
     square = ((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0))
     zones = (
         Zone("bay", "parking", square, Pose(1.0, 1.0, 0.0)),
-        Zone("dock", "station", square, Pose(95.0, 5.0, 0.0)),
+        Zone("dock", "station", square, DOCK),
     )
     bounds = ((0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0))
     fleet = tuple(Robot(id, kind.name, Pose(x, y, 0.0)) for id, x, y in robots)
@@ -88,7 +94,7 @@ def test_pairs_are_taken_in_the_order_of_their_distance() -> None:
 
 def test_a_trip_has_the_orders_visits_and_may_rest_in_any_bay() -> None:
     scenario = hall(("a", 10.0, 30.0))
-    state = board(scenario, [order("o1", 15.0, 60.0, due=300.0), order("o2", 90.0, 90.0)])
+    state = board(scenario, [order("o1", 15.0, 60.0, to=DOCK, due=300.0), order("o2", 90.0, 90.0)])
     (choice,) = NearestOrder(scenario)(state)
     assert choice.trip.visits == state.open["o1"].visits
     assert choice.trip.visits[-1].due == 300.0
@@ -119,7 +125,7 @@ def test_who_has_served_its_pick_is_in_nobodys_way() -> None:
     orders = [order("o2", 30.0, 35.0), order("o3", 35.0, 47.0)]
     for now, expected in ((5_000, "o3"), (20_000, "o2")):
         dispatcher = NearestOrder(scenario)
-        state = board(scenario, [order("o1", 50.0, 35.0)])
+        state = board(scenario, [order("o1", 50.0, 35.0, to=DOCK)])
         later = state.robots.pop("b")
         assert decide(dispatcher, state) == [("a", "o1")]
         state.robots["b"] = later
@@ -129,12 +135,23 @@ def test_who_has_served_its_pick_is_in_nobodys_way() -> None:
 
 
 def test_old_orders_get_their_turn() -> None:
-    """At 0.1 m a second, 80 m farther away is made up for by 900 s more of waiting."""
+    """At 0.1 m a second, 80 m farther away is made up for by 800 s more of waiting."""
     scenario = hall(("a", 10.0, 30.0))
     for now, expected in ((700_000, "near"), (900_000, "far")):
         far = order("far", 95.0, 30.0, release=0.0)
         state = board(scenario, [far, order("near", 15.0, 30.0, release=now / 1000.0)], now)
-        assert decide(NearestOrder(scenario), state) == [("a", expected)]
+        params = NearestOrderParams(age=0.1)
+        assert decide(NearestOrder(scenario, params), state) == [("a", expected)]
+
+
+def test_remote_orders_are_not_left_to_the_end() -> None:
+    """From (50, 20) it is 40 m to the deep order and 30 m to the other one.
+
+    But whoever comes from the dock drives 86 m to the deep one, and 21 m to the other.
+    """
+    scenario = hall(("a", 50.0, 20.0))
+    orders = [order("deep", 10.0, 20.0, to=DOCK), order("other", 80.0, 20.0, to=DOCK)]
+    assert decide(NearestOrder(scenario), board(scenario, orders)) == [("a", "deep")]
 
 
 def test_urgent_orders_go_first() -> None:

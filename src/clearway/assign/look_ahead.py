@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linear_sum_assignment
 
+from clearway.assign.place_matching import match_places
 from clearway.assign.ruin_recreate import RuinRecreateParams
 from clearway.assign.sequences import improve_sequences
 from clearway.assign.shelf_cycle import ShelfCycle, ShelfParams
@@ -15,7 +15,6 @@ from clearway.protocols import Alternative, Board, Choice, RobotView, Weights
 from clearway.world.lane_times import LaneTimes
 
 Floats = NDArray[np.float64]
-FAR = 1e9  # forbids a place
 
 
 @dataclass(frozen=True)
@@ -49,6 +48,15 @@ class LookAheadParams:
     top_up: float = 0.6
     weights: Weights = field(default_factory=lambda: Weights(1.0, 0.1, 0.0, 0.0))
 
+    def __post_init__(self) -> None:
+        for name in ("rounds", "again", "every", "horizon"):
+            if getattr(self, name) < 1:
+                raise ValueError(f"{name} must be 1 or more, got {getattr(self, name)}")
+        if not self.patience > 0.0:
+            raise ValueError(f"patience must be above 0, got {self.patience}")
+        if not 0.0 <= self.top_up <= 1.0:
+            raise ValueError(f"top_up must be in [0, 1], got {self.top_up}")
+
 
 class LookAhead(ShelfCycle):
     """Dispatching that knows what comes next.
@@ -58,6 +66,9 @@ class LookAhead(ShelfCycle):
     where it was, which is always possible. A robot that has lifted a shelf chooses the station, and
     there the vacant place, from which the way by the place to its next shelf is shortest. A
     shelf with an idle robot under it is fetched by that one. A robot with nothing to do charges.
+
+    Shelves on board are matched with vacant places all at once, so that no robot stores where
+    another counts on. Memory grows with the square of the number of endpoints: some thousands.
 
     Parameters
     ----------
@@ -240,24 +251,13 @@ class LookAhead(ShelfCycle):
         return [mine, *(other for other in ranked if other.name != mine.name)][:number]
 
     def _match(self, storing: str | None = None) -> dict[str, int]:
-        """Give each shelf on board a place of its own, the ways to next orders short in sum.
-
-        Shelves that have been lifted and not left count as well, and the places that they will
-        leave; but who is ``storing`` now needs a vacant one (there are enough, R-B13).
-        """
-        robots = list(self._bring)
+        """Give each shelf on board a place, also those lifted and not left, with theirs."""
         places = [self._times.number[name] for name in self.yard.vacant.names()]
+        vacant = len(places)
         ends = [at for at, _ in self._bring.values()]
         places += [at for at in ends if self.yard.kind[self._times.names[at]] == "shelf"]
-        cost = np.empty((len(robots), len(places)))
-        for k, robot in enumerate(robots):
-            at, stations = self._bring[robot]
-            way = self._far[at, stations][:, None] + self._far[np.ix_(stations, places)]
-            cost[k] = way.min(axis=0) + self._onward(robot, places)
-            if robot == storing:
-                cost[k, len(self.yard.vacant) :] = FAR
-        rows, columns = linear_sum_assignment(cost)
-        return {robots[k]: places[c] for k, c in zip(rows, columns, strict=True)}
+        onward = {robot: self._onward(robot, places) for robot in self._bring}
+        return match_places(self._far, self._bring, places, onward, storing, vacant)
 
     def _onward(self, robot: str, places: list[int]) -> Floats:
         """Return times from places to the next shelf of a robot, if it has one."""

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class NearestOrderParams:
-    """What an order costs a robot beside the distance to its first visit.
+    """What an order costs a robot beside the way to its first visit.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ class NearestOrderParams:
     """
 
     crowd: float = 30.0
-    age: float = 0.1
+    age: float = 0.03
     refusal: float = 10.0
     alternatives: int = 3
 
@@ -51,11 +51,12 @@ class NearestOrderParams:
 class NearestOrder:
     """Dispatches the cheapest pair of an idle robot and an open order, again and again.
 
-    An order costs the distance to its first visit; more where other robots still have to serve
-    their first visit within sight of it, such as in the same aisle; and less with its age, so that
-    none waits for ever. Orders of higher priority go before all others. A robot is asked for when
-    its last service has ended: from then on its way to rest may be replaced, and nothing is gained
-    by asking sooner.
+    An order costs how much farther its first visit is from the robot than from where the nearest
+    known order ends, for that far somebody has to come anyway: so remote orders are not left to the
+    end. It costs more where other robots still have to serve their first visit within sight of its
+    own, such as in the same aisle, and less with its age, so that none waits for ever. Orders of
+    higher priority go before all others. A robot is asked for when its last service has ended:
+    from then on its way to rest may be replaced, and nothing is gained by asking sooner.
     """
 
     def __init__(self, scenario: Scenario, params: NearestOrderParams | None = None) -> None:
@@ -118,7 +119,9 @@ class NearestOrder:
         """Return what each order costs each robot (m), ``(robots, orders)``; infinite: not his."""
         at = np.array([(view.pose.x, view.pose.y) for view in idle])
         to = np.array([(o.visits[0].pose.x, o.visits[0].pose.y) for o in orders])
-        away = np.linalg.norm(at[:, None, :] - to[None, :, :], axis=2)
+        ends = np.array([(o.visits[-1].pose.x, o.visits[-1].pose.y) for o in board.open.values()])
+        away = np.linalg.norm(at[:, None] - to[None], axis=2)
+        away -= np.linalg.norm(ends[:, None] - to[None], axis=2).min(axis=0)
         age = np.array([to_seconds(board.now) - order.release for order in orders])
         refused = np.array([board.refusals.get(order.task.id, 0) for order in orders])
         away = away + self.params.refusal * refused
