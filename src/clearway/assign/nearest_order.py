@@ -35,7 +35,7 @@ class NearestOrderParams:
     """
 
     crowd: float = 30.0
-    age: float = 0.03
+    age: float = 0.1
     refusal: float = 10.0
     alternatives: int = 3
 
