@@ -45,13 +45,17 @@ class Timed(TailTrips):
         answer = super().plan(trip, now, effort, lead)
         self.seconds.append(time.process_time() - begin)
         if isinstance(answer, Commitment) and answer.served <= self.end:
-            last, lone = self.served[trip.robot][-1], self.lone(trip, pose)
+            last = self.served[trip.robot][-1]
+            # Orders are released at moments that mean nothing to who begins at 0.
+            free = tuple(replace(visit, not_before=0.0) for visit in trip.visits)
+            lone = self.lone(replace(trip, visits=free), pose)
             self.served[trip.robot].append(answer.served)
             self.done += 1
             if lone:
                 self.ratios.append((answer.served - last) / lone)
             self.lasting += answer.served - last
-            self.waiting += sum(min(w.end or 0, answer.served) - w.begin for w in answer.waits)
+            stood = (min(w.end or 0, answer.served) - w.begin for w in answer.waits)
+            self.waiting += sum(max(0, ticks) for ticks in stood)
             self.waiting += max(0, now - last)
         return answer
 
