@@ -1,0 +1,160 @@
+"""Scenarios run through time: every order done, no body touches another, the same each time."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from clearway.assign import LookAhead, NearestIdle
+from clearway.coordinate import Lifelong
+from clearway.execute import CellConflicts, RightOfWay
+from clearway.formats.trace_file import dump_trace, without_timings
+from clearway.model import Disturbances, Layout, Scenario, Simulation
+from clearway.plan import LaneTrips, TailTrips
+from clearway.protocols import TripPlanner
+from clearway.systems.simulate import Simulated, run_through_time
+from clearway.validate.lane_trace import validate_on_lanes
+from clearway.validate.trace_judge import validate_trace
+from clearway.world.channels import lane_grid
+from clearway.world.dynamic_map import DynamicMap
+from clearway.world.lifelong import lifelong_warehouse
+from clearway.world.shelf_batch import shelf_batch
+
+SMALL = {
+    rule: Layout(rule, blocks=(4, 4, 4), bands=3)
+    for rule in ("bidirectional", "compact", "one_way")
+}
+PAPER = {rule: Layout(rule) for rule in SMALL}
+
+
+def judged(run: Simulated) -> list[str]:
+    """Return all that the judge has against a run."""
+    return [str(violation) for violation in validate_trace(run.trace)]
+
+
+def judged_on_lanes(run: Simulated) -> list[str]:
+    """Return all that the judges of bodies and of lanes have against a run on time."""
+    layout = run.trace.site.layout
+    assert layout is not None
+    found = validate_on_lanes(run.trace, lane_grid(layout))
+    return judged(run) + [str(violation) for violation in found]
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.0])
+@pytest.mark.parametrize("rules", ["waiting", "search"])
+@pytest.mark.parametrize("rule", list(PAPER))
+def test_twenty_robots_do_all_orders_whatever_their_batteries(
+    rule: str, rules: str, turn: float
+) -> None:
+    """R-B49: 250 orders, batteries that start at 15 to 100 %, both turn settings."""
+    scenario = shelf_batch(
+        PAPER[rule],
+        20,
+        250,
+        7,
+        turn_seconds=turn,
+        energy=(0.15, 1.0),
+        settings={"rules": rules},
+    )
+    run = run_through_time(scenario)
+    assert run.status == "done"
+    assert run.trace.events[-1]["orders_done"] == 250
+    assert judged_on_lanes(run) == []
+    assert any(e["purpose"] == "charge" for e in run.trace.of("decision"))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("rule", list(SMALL))
+def test_late_robots_on_lanes_keep_the_order_of_passage(rule: str, seed: int) -> None:
+    """R-B37: random stops and slow robots delay others, but nobody is ever hit or left behind."""
+    scenario = late(shelf_batch(SMALL[rule], 6, 24, seed), stops=60.0)
+    run = run_through_time(scenario)
+    assert run.status == "done"
+    assert any(e["kind"] == "stop" for e in run.trace.of("fault"))
+    assert judged(run) == []
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_late_robots_with_true_shapes_keep_the_order_of_passage(seed: int) -> None:
+    scenario = late(warehouse(6, seed, minutes=4.0), stops=60.0)
+    run = run_through_time(scenario)
+    assert run.trace.events[-1]["orders_done"] > 5
+    assert judged(run) == []
+
+
+def late(scenario: Scenario, stops: float) -> Scenario:
+    disturbances = Disturbances(stops_per_hour=stops, slow=0.3, slowness=0.6)
+    return replace(scenario, simulation=replace(scenario.simulation, disturbances=disturbances))
+
+
+def warehouse(robots: int, seed: int, minutes: float) -> Scenario:
+    """Return carriers in the warehouse with orders that never end, and clearance for delays."""
+    scenario = lifelong_warehouse(robots, seed, fleet="carriers", picks=30, minutes=minutes)
+    types = {name: replace(kind, clearance=0.1) for name, kind in scenario.robot_types.items()}
+    return replace(scenario, robot_types=types)
+
+
+@pytest.mark.parametrize(
+    "scenario",
+    [
+        shelf_batch(SMALL["bidirectional"], 6, 20, 1),
+        late(shelf_batch(SMALL["bidirectional"], 6, 20, 1), stops=60.0),
+        late(warehouse(4, 1, minutes=2.0), stops=60.0),
+    ],
+    ids=["lanes", "late on lanes", "late with true shapes"],
+)
+def test_the_same_scenario_gives_the_same_trace(scenario: Scenario) -> None:
+    one, other = (dump_trace(run_through_time(scenario).trace) for _ in range(2))
+    assert without_timings(one.splitlines()) == without_timings(other.splitlines())
+
+
+def test_another_seed_gives_another_trace() -> None:
+    one, other = (
+        dump_trace(run_through_time(warehouse(4, 1, minutes=1.0), seed=seed).trace)
+        for seed in (1, 2)
+    )
+    assert one != other
+
+
+def lanes_by(rules: str) -> Callable[[Scenario], TripPlanner]:
+    def made(scenario: Scenario) -> TripPlanner:
+        assert scenario.site.layout is not None
+        grid = lane_grid(scenario.site.layout)
+        kind = scenario.robot_types["agv"]
+        return LaneTrips(grid, scenario.robots, kind, DynamicMap(grid), rules)  # type: ignore[arg-type]
+
+    return made
+
+
+@pytest.mark.parametrize("rule", list(SMALL))
+@pytest.mark.parametrize(
+    "trips", [lanes_by("waiting"), lanes_by("search"), TailTrips], ids=["rules", "search", "tails"]
+)
+@pytest.mark.parametrize("dispatch", [NearestIdle, LookAhead], ids=["nearest", "ahead"])
+def test_each_dispatcher_goes_with_each_planner_on_each_layout(
+    dispatch: type[NearestIdle] | type[LookAhead],
+    trips: Callable[[Scenario], TripPlanner],
+    rule: str,
+) -> None:
+    """Dispatching of shelves even drives holonomic robots that see lanes as open floor."""
+    scenario = shelf_batch(SMALL[rule], 3, 9, 2)
+    if trips is TailTrips:
+        kind = replace(scenario.robot_types["agv"], kinematics="holonomic")
+        scenario = replace(scenario, robot_types={"agv": kind})
+
+    def execute(scenario: Scenario) -> RightOfWay:
+        return RightOfWay(CellConflicts(lane_grid(SMALL[rule])))
+
+    system = Lifelong("crossed", dispatch, trips, execute)
+    run = run_through_time(scenario, system)
+    assert run.status == "done"
+    assert (judged if trips is TailTrips else judged_on_lanes)(run) == []
+
+
+def test_time_is_up_with_orders_open() -> None:
+    scenario = shelf_batch(SMALL["compact"], 2, 20, 0)
+    run = run_through_time(replace(scenario, simulation=Simulation(until=60.0)))
+    end = run.trace.events[-1]
+    assert (run.status, end["t"]) == ("ended", 60.0)
+    assert end["orders_open"] == 20 - end["orders_done"] > 0
+    assert judged(run) == []
