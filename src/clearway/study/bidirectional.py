@@ -147,7 +147,7 @@ STUDY = Study(
         "one-way counterparts: compact (34 x 23 cells) and one_way (the same floor).",
         "Robots drive a cell a second and turn in no time; a shelf stays 10 s at a station. All "
         "orders of a batch are known at 0 s; a seed draws the same shelves on all layouts.",
-        "The makespan ends when the last shelf is put down. Every run is judged on true bodies, and "
+        "The makespan ends when the last shelf is put down. Every run is judged on true bodies and "
         "cell by cell.",
     ),
     parts={
