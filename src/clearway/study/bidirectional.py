@@ -41,6 +41,8 @@ SENSITIVITY: Mapping[str, Mapping[str, Any]] = {
     "a shelf may be drawn again": {"repeat": True},
     "nearest by route": {"nearest": "route"},
     "literal map": {"map_mode": "literal"},
+    "robots start all over the site": {"everywhere": True},
+    "two cells a second": {"speed": 2.0},
     "residence of 5 s": {"residence": 5.0},
     "residence of 20 s": {"residence": 20.0},
 }
@@ -111,6 +113,8 @@ def row(cell: Cell) -> Row:
         zone=lower_left(layout) if settings["experiment"] == "E19" else None,
         repeat=more.pop("repeat", False),
         turn_seconds=more.pop("turn_seconds", 0.0),
+        everywhere=more.pop("everywhere", False),
+        speed=more.pop("speed", None),
         settings={**METHODS[settings["method"]], **more},
     )
     params = ShelfParams(residence=more.get("residence", 10.0))

@@ -22,6 +22,7 @@ def shelf_batch(
     turn_seconds: float = 0.0,
     energy: tuple[float, float] = (1.0, 1.0),
     everywhere: bool = False,
+    speed: float | None = None,
     settings: Mapping[str, Any] | None = None,
 ) -> Scenario:
     """Return orders that are all released at 0 for shelves drawn by number (R-B14, R-B15, R-B43).
@@ -39,6 +40,8 @@ def shelf_batch(
         Lowest and highest level of a battery at the start, drawn evenly.
     everywhere
         Spread the robots over all places instead.
+    speed
+        In m/s; ``None``: one cell a second.
     settings
         Of the system.
 
@@ -56,6 +59,8 @@ def shelf_batch(
     shelves = drawn.choices(numbers, k=orders) if repeat else drawn.sample(numbers, orders)
     levels = random.Random(f"{seed}/energy")
     kind = replace(agv_type(layout, turn_seconds), name=AGV)
+    if speed is not None:
+        kind = replace(kind, limits=replace(kind.limits, speed=speed))
     return Scenario(
         name=f"{layout.rule}-{robots}x{orders}",
         site=site,
