@@ -112,6 +112,8 @@ def of_rest(last: Span | None) -> list[str]:
 def of_decision(decision: Event) -> str:
     """Tell what was chosen, why, and what the alternatives would have cost."""
     kind, chosen = decision["kind"], decision.get("chosen")
+    if kind == "detour":
+        return f"At {seconds(decision['t'])} it {chosen}: {decision['because']}."
     told = f"{kind.capitalize()} {chosen} was chosen at {seconds(decision['t'])}"
     if decision.get("score") is not None:
         told += f" (score {decision['score']:.4g})"
