@@ -3,6 +3,7 @@
 from clearway.assign.apsga import AdaptationParams, Apsga, ApsgaParams
 from clearway.assign.automatic import AutomaticAssigner
 from clearway.assign.breeding import ELITIST, LITERAL, BreedingParams
+from clearway.assign.charging import Charging
 from clearway.assign.costs import build
 from clearway.assign.exact import ExactAssigner
 from clearway.assign.flight import Coefficients, FlightParams
@@ -32,6 +33,7 @@ __all__ = [
     "ApsgaParams",
     "AutomaticAssigner",
     "BreedingParams",
+    "Charging",
     "Coefficients",
     "ExactAssigner",
     "FlightParams",

@@ -2,7 +2,7 @@
 
 from dataclasses import asdict
 
-from clearway.assign import NearestOrder, OldestOrder
+from clearway.assign import Charging, NearestOrder, OldestOrder
 from clearway.coordinate import Lifelong
 from clearway.execute import BodyConflicts, RightOfWay
 from clearway.model import Problem, Scenario
@@ -20,7 +20,8 @@ def hierarchical_lifelong(settings: HierarchicalSettings) -> Lifelong:
     """
 
     def dispatch(scenario: Scenario) -> Dispatcher:
-        return (OldestOrder if settings.dispatch == "oldest" else NearestOrder)(scenario)
+        orders = OldestOrder if settings.dispatch == "oldest" else NearestOrder
+        return Charging(scenario, orders(scenario))
 
     def execute(scenario: Scenario) -> Executor:
         types = {robot.id: scenario.type_of(robot) for robot in scenario.robots}
