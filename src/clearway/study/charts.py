@@ -2,6 +2,7 @@
 
 import io
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -59,7 +60,7 @@ def draw(chart: Chart, ground: Ground = LIGHT) -> bytes:
             named.values(),
             named,
             loc="outside lower center",
-            ncols=min(len(named), 3 + 2 * columns),
+            ncols=_columns(named, width * columns),
             frameon=False,
             labelcolor=ground.ink,
             fontsize=9.5,
@@ -67,6 +68,12 @@ def draw(chart: Chart, ground: Ground = LIGHT) -> bytes:
     content = io.BytesIO()
     figure.savefig(content, format="png", metadata={"Software": None})
     return content.getvalue()
+
+
+def _columns(labels: Collection[str], inches: float) -> int:
+    """Return how many labels stand side by side; each has a column as wide as the widest."""
+    widest = 0.6 + 0.075 * max(len(label) for label in labels)
+    return max(1, min(len(labels), int(inches / widest)))
 
 
 def _dress(axes: Axes, panel: Panel, ground: Ground) -> None:
