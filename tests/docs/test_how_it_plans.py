@@ -89,6 +89,7 @@ def test_the_page_tells_the_defaults_of_a_team(name, value, told):
     [
         ("weight", 1.1, "it is 1.1"),
         ("greed", 0.3, "grows by 0.3"),
+        ("most_weight", 2.5, "up to 2.5"),
         ("tail_weight", 2.0, "weighs 2"),
         ("cell", 0.85, "0.85 of the shortest motion"),
         ("shot_words", 2, "the two best curves"),
@@ -106,7 +107,6 @@ def test_the_page_tells_the_defaults_of_a_search(name, value, told):
     [
         ("search/tour_search.cpp", "kMostDelays = 64;", "up to 64 times"),
         ("search/tour_search.cpp", "kFirstGreed = 256;", "after 256 expansions"),
-        ("search/tour_search.cpp", "kMostWeight = 2.5;", "up to 2.5"),
         ("multi/prioritised.cpp", "3 * order.size() + 8;", "three times as many robots"),
     ],
 )

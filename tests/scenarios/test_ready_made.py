@@ -9,8 +9,10 @@ from clearway.formats.scenario_file import read_scenario
 from clearway.model import Status
 from clearway.protocols import Budget
 from clearway.systems import solve
+from clearway.systems.simulate import simulate
 from clearway.validate import validate_plan
 from clearway.validate.legality import check_scenario
+from clearway.validate.trace_judge import validate_trace
 
 FOLDER = Path(__file__).parents[2] / "scenarios"
 # Robots, tasks, and an effort that is a few times what each takes.
@@ -21,6 +23,13 @@ READY = {
     "warehouse-8x24": (8, 24, 100_000),
     "warehouse-16x48": (16, 48, 200_000),
     "yard-30": (30, 30, 200_000),
+}
+# Scenarios that run through time, and how many orders are done at least.
+RUNNING = {
+    "bidirectional": 340,
+    "warehouse-delays": 40,
+    "warehouse-lifelong": 100,
+    "warehouse-surprise": 55,
 }
 
 
@@ -34,7 +43,18 @@ def solved(request):
 
 def test_every_file_in_the_folder_is_examined_here():
     """A scenario that is added is added here too."""
-    assert {path.stem for path in FOLDER.glob("*.toml")} == set(READY)
+    assert {path.stem for path in FOLDER.glob("*.toml")} == {*READY, *RUNNING}
+
+
+@pytest.mark.parametrize("name", RUNNING)
+def test_it_runs_through_time_and_is_judged_right(name):
+    """Orders are done to the end, and the judge finds nothing wrong in the whole trace."""
+    scenario = read_scenario(FOLDER / f"{name}.toml")
+    assert check_scenario(scenario).findings == ()
+    run = simulate(scenario)
+    assert run.status == "ended"
+    assert run.trace.events[-1]["orders_done"] >= RUNNING[name]
+    assert [str(violation) for violation in validate_trace(run.trace)] == []
 
 
 def test_it_is_legal(solved):
