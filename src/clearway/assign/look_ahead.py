@@ -1,11 +1,13 @@
 """Orders in good sequences, stations and places chosen with the next order in mind."""
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clearway.assign.nearest_idle import TRIES
 from clearway.assign.place_matching import match_places
 from clearway.assign.ruin_recreate import RuinRecreateParams
 from clearway.assign.sequences import improve_sequences
@@ -123,10 +125,14 @@ class LookAhead(ShelfCycle):
                 order = board.open[id]
                 place = self.yard.where[self._planned[id][1]] or ""
                 fetcher = self.yard.owner(place) or robot  # an idle one under the shelf goes first
+                if self._is_barred(fetcher, id) and self._may_others_fetch(fetcher, place, board):
+                    continue
                 choice = self._propose(board.robots[fetcher], order, place)
+                others = self._may_others_fetch(fetcher, place, board)
+                choice = replace(choice, elsewhere=others)
                 yield choice
                 if board.robots[fetcher].trip is choice.trip:
-                    self._commit_fetch(choice, order, board)
+                    self._commit_fetch(choice, self._planned[id][0], order, board)
                     self._drop(id)
                     self._begun += 1
                 else:
@@ -137,14 +143,49 @@ class LookAhead(ShelfCycle):
             yield from self._top_up(board)
 
     def _candidates(self, robot: str, board: Board) -> list[str]:
-        """Return the orders that a robot may begin now: those long open first, then its own."""
+        """Return the orders that a robot may begin now.
+
+        More urgent ones than its own come first, then those long open, then its own; before them
+        all those that the robots whose they are cannot begin.
+        """
         late = board.now - to_ticks(self.ahead.patience)
         old = [id for id in self._planned if to_ticks(board.open[id].release) < late]
         old.sort(key=lambda id: self._planned[id])
         own = [id for id in self._sequences[robot] if id not in old]
+        ids = list(dict.fromkeys(self._strays(board) + old + own))
+        priority = {id: board.open[id].priority for id in self._planned}
+        if len(set(priority.values())) > 1:
+            mine = [priority[id] for id in own if self._is_ready(id)]
+            least = mine[0] if mine else min(priority.values())
+            urgent = [id for id in self._planned if priority[id] > least and id not in ids]
+            ids += sorted(urgent, key=lambda id: self._way(robot, id))
+            ids.sort(key=lambda id: -priority[id])  # those alike stay in turn
+        return [id for id in ids if self._is_ready(id)]
+
+    def _strays(self, board: Board) -> list[str]:
+        """Return orders in sequences of robots that cannot get there, or are refused often."""
+        if not (self._barred or self._gone or board.refusals):
+            return []
         return [
-            id for id in old + own if super(LookAhead, self)._is_available(self._planned[id][1])
+            id
+            for robot, sequence in self._sequences.items()
+            for id in sequence
+            if board.refusals.get(id, 0) >= TRIES or self._is_barred(robot, id)
         ]
+
+    def _is_barred(self, robot: str, id: str) -> bool:
+        return robot in self._barred_robots(self.yard.where[self._planned[id][1]] or "")
+
+    def _is_ready(self, id: str) -> bool:
+        return super()._is_available(self._planned[id][1])
+
+    def _way(self, robot: str, id: str) -> float:
+        """Return the driving time (s) of a robot to the shelf of an order."""
+        place = self.yard.where[self._planned[id][1]]
+        return math.inf if place is None else self._seconds(robot, place)
+
+    def _seconds(self, robot: str, place: str) -> float:
+        return float(self._far[self._at(robot), self._times.number[place]])
 
     def _is_available(self, shelf: str) -> bool:
         return shelf not in self._shelves and super()._is_available(shelf)
@@ -205,7 +246,20 @@ class LookAhead(ShelfCycle):
         self._begun = 0
 
     def _at(self, robot: str) -> int:
-        return self._times.number[self.yard.owned(robot) or ""]
+        owned = self.yard.owned(robot)
+        return self._free[robot][0] if owned is None else self._times.number[owned]
+
+    @property
+    def _is_upset(self) -> bool:
+        """Whether obstacles have come between shelves and places: nothing is matched any more."""
+        return bool(self._barred) or not self.yard.is_whole
+
+    def _driven_off(self, view: RobotView, now: int) -> None:
+        """Take a robot to be at the endpoint nearest to where it is."""
+        pose = self.yard.pose
+        near = min(pose, key=lambda name: (pose[name].distance(view.pose), name))
+        self._free[view.id] = self._times.number[near], now
+        self._bring.pop(view.id, None)
 
     def _next_place(self, robot: str) -> int | None:
         """Return where the shelf of a robot's next order is, if it has one."""
@@ -232,19 +286,25 @@ class LookAhead(ShelfCycle):
 
     def _stations(self, view: RobotView, shelf: str, number: int) -> list[Alternative]:
         at = self._at(view.id)
-        names = self.yard.stations.names()
+        barred = self._barred_from(view.id)
+        names = [name for name in self.yard.stations.names() if name not in barred]
         stations = [self._times.number[name] for name in names]
         if not stations:
             return []
+        if self._is_upset:
+            return _ranked(names, self._far[at, stations], number)
         self._bring[view.id] = at, stations
         place = self._match()[view.id]
         return _ranked(names, self._far[at, stations] + self._far[stations, place], number)
 
     def _places(self, view: RobotView, number: int) -> list[Alternative]:
-        names = self.yard.vacant.names()
+        barred = self._barred_from(view.id)
+        names = [name for name in self.yard.vacant.names() if name not in barred]
         places = [self._times.number[name] for name in names]
         at = self._at(view.id)
         onward = self._far[at, places] + self._onward(view.id, places)
+        if self._is_upset:
+            return _ranked(names, onward, number)
         best = places.index(self._match(storing=view.id)[view.id])
         ranked = _ranked(names, onward, number)
         mine = Alternative(names[best], float(onward[best]))

@@ -124,6 +124,24 @@ class LaneWays:
         cells = self.grid.entrances(endpoint)
         return not (self._free[endpoint[::-1]] and any(self._free[y, x] for x, y in cells))
 
+    def is_cut_off(self, start: Cell, goal: Cell, stuck: Collection[Cell] = ()) -> bool:
+        """Whether no way past closed and ``stuck`` cells leads from a cell to an endpoint."""
+        free = self._free & (self.grid.region >= HORIZONTAL)
+        for x, y in stuck:
+            free[y, x] = False
+        free[start[::-1]] = free[goal[::-1]] = True
+        reached, ahead = {start}, [start]
+        while ahead:
+            x, y = ahead.pop()
+            for dx, dy in STEPS.values():
+                cell = x + dx, y + dy
+                if not (0 <= cell[0] < free.shape[1] and 0 <= cell[1] < free.shape[0]):
+                    continue
+                if free[cell[::-1]] and cell not in reached:
+                    reached.add(cell)
+                    ahead.append(cell)
+        return goal not in reached
+
     def owner(self, cell: Cell, robot: int) -> str | None:
         """Return who other than ``robot`` rests, or will rest, in a cell."""
         holders = self.holds.holders(self.index(cell), _core.NEVER - 1)
