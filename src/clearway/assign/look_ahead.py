@@ -137,6 +137,9 @@ class LookAhead(ShelfCycle):
                     self._begun += 1
                 else:
                     refused += 1
+                    if id not in board.open:
+                        self.yard.freed.append(self._planned[id][1])
+                        self._drop(id)  # it cannot be done
                 if fetcher == robot or refused > 1:
                     break
         if not self._planned and not self._low:

@@ -92,6 +92,8 @@ class ShelfCycle(ABC):
         yield from self._leave(board)
         yield from self._charge(board)
         yield from self._begin(board)
+        if not self.yard.is_whole or self._barred:
+            yield from self._give_up(board)
 
     @abstractmethod
     def _committed(self, choice: Choice, board: Board) -> None:
@@ -280,6 +282,28 @@ class ShelfCycle(ABC):
         for those in (self._next, self._astray, self._low):
             those.pop(robot, None)
 
+    def _give_up(self, board: Board) -> Iterator[Choice]:
+        """Fail orders whose shelves have no place to go to, once nobody does anything any more."""
+        if any(not view.is_idle for view in board.robots.values()):
+            return
+        for robot in list(self._next):
+            view, order = board.robots[robot], self._doing[robot][0]
+            barred = self._barred_from(robot)
+            if self._places(view, 1) or self.yard.where[self.yard.carried(robot)] is not None:
+                continue
+            if self._next[robot] == "fetch" and order.task.id in board.open:
+                continue  # it waits for a station
+            if order.task.id in board.open and (places := barred & self.yard.where.keys()):
+                place = min(places, key=lambda name: (name not in self.yard.vacant, name))
+                best = [Alternative(place, 0.0)]
+                choice = self._store(view, order, self.yard.carried(robot), best, False)
+                assert choice is not None
+                yield choice
+            elif barred:
+                self._lose(robot)
+        if self._gone:
+            yield from self._fail(board)
+
     def _fail(self, board: Board) -> Iterator[Choice]:
         """Yield trips of robots that are gone for what only they could do: those orders fail."""
         gone = sorted(self._gone)
@@ -289,7 +313,7 @@ class ShelfCycle(ABC):
             robot = carriers.get(order.task.fetches or "", gone[0] if is_over else None)
             if robot is None or id in board.taken:
                 continue
-            place = min(self._barred_from(robot))
+            place = min(self._barred_from(robot), key=lambda p: (self.yard.owner(p) or "", p))
             visit = Visit(id, self.yard.pose[place])
             trip = Trip(robot, (visit,), "fetch", id, (place,))
             because = f"{robot} has {order.task.fetches} on board" if carriers else ""

@@ -26,7 +26,7 @@ from clearway.plan.lane_ways import LaneWay, LaneWays, Moves
 from clearway.plan.named_waits import retimed_waits
 from clearway.plan.waits_by_rule import ROUNDS, WaitsByRule
 from clearway.protocols import Refusal
-from clearway.world.lane_grid import LaneGrid
+from clearway.world.lane_grid import Cell, LaneGrid
 
 LIMIT = 100_000  # expansions of a search, times the effort
 
@@ -201,14 +201,25 @@ class LaneTrips:
         return None
 
     def _is_cut_off(self, start: Pose, goal: Pose) -> bool:
-        """Whether no way is left past obstacles and robots that cannot leave where they stand."""
-        stuck: set[int] = set()
+        """Whether no way is left past obstacles and robots that can never leave lanes."""
+        stuck: set[Cell] = set()
+        standing: list[Cell] = []
         for robot, committed in self._committed.items():
-            if not self._in_middle(committed.trajectory.final_pose):
+            pose = committed.trajectory.final_pose
+            if not self._in_middle(pose):  # between two cells
                 route = self._holds.route(self._number[robot])
-                stuck.update(stay.cell for stay in route[-2:])  # it is between two cells
-        cells = self.grid.cell_at(start), self.grid.cell_at(goal)
-        return self._ways.is_cut_off(*cells, {self._ways.cell(index) for index in stuck})
+                stuck.update(self._ways.cell(stay.cell) for stay in route[-2:])
+            elif (cell := self.grid.cell_at(pose)) not in self._endpoint:
+                standing.append(cell)
+        while trapped := [
+            cell
+            for cell in standing
+            if not self._ways.within_reach(cell, stuck).intersection(self._endpoint)
+        ]:
+            stuck.update(trapped)
+            standing = [cell for cell in standing if cell not in stuck]
+        cell = self.grid.cell_at(start)
+        return self.grid.cell_at(goal) not in self._ways.within_reach(cell, stuck)
 
     def _in_middle(self, pose: Pose) -> bool:
         middle = self.grid.centre(self.grid.cell_at(pose))

@@ -51,6 +51,7 @@ class LaneWays:
         self._search = _core.LaneSearch(self.holds, self.may_wait, self.quarter)
         self._route = RouteSearch(grid, self.step, self.quarter)
         self._moves = moves
+        self._ends = {point.cell for point in grid.endpoints.values()}
         self._free = np.ones(grid.region.shape, np.bool_)
         self._open: MoveMap | None = None  # moves that do not lead into closed cells
 
@@ -124,23 +125,25 @@ class LaneWays:
         cells = self.grid.entrances(endpoint)
         return not (self._free[endpoint[::-1]] and any(self._free[y, x] for x, y in cells))
 
-    def is_cut_off(self, start: Cell, goal: Cell, stuck: Collection[Cell] = ()) -> bool:
-        """Whether no way past closed and ``stuck`` cells leads from a cell to an endpoint."""
-        free = self._free & (self.grid.region >= HORIZONTAL)
+    def within_reach(self, start: Cell, stuck: Collection[Cell] = ()) -> set[Cell]:
+        """Return the cells to which ways past closed and ``stuck`` ones lead, endpoints too."""
+        free = self._free.copy()
         for x, y in stuck:
             free[y, x] = False
-        free[start[::-1]] = free[goal[::-1]] = True
         reached, ahead = {start}, [start]
         while ahead:
             x, y = ahead.pop()
             for dx, dy in STEPS.values():
                 cell = x + dx, y + dy
-                if not (0 <= cell[0] < free.shape[1] and 0 <= cell[1] < free.shape[0]):
+                is_channel = self.grid.is_channel(cell)
+                # Endpoints are left and entered from channels only.
+                if not is_channel and not ((x, y) not in self._ends and cell in self._ends):
                     continue
                 if free[cell[::-1]] and cell not in reached:
                     reached.add(cell)
-                    ahead.append(cell)
-        return goal not in reached
+                    if is_channel:
+                        ahead.append(cell)
+        return reached
 
     def owner(self, cell: Cell, robot: int) -> str | None:
         """Return who other than ``robot`` rests, or will rest, in a cell."""

@@ -144,7 +144,9 @@ class WaitsByRule:
         self, robot: int, stays: Sequence[_core.CellStay], index: int, other: int, granted: int
     ) -> Pause | None:
         by = self._holds.least_delay(robot, stays, index, other, granted)
-        return Pause(robot, index, stays[index].turn_begin, by, other) if by >= 0 else None
+        if by < 0 or stays[-1].arrive + by >= _core.NEVER - 1:
+            return None  # none is enough, or the other stands there for ever
+        return Pause(robot, index, stays[index].turn_begin, by, other)
 
     def _nodes(self, stays: Sequence[_core.CellStay]) -> list[Node]:
         width = self._grid.size[0]
