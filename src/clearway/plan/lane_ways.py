@@ -13,6 +13,9 @@ from clearway.plan.route_search import RouteSearch
 from clearway.world.lane_grid import CROSSING, HORIZONTAL, STEPS, T_CROSSING, Cell, LaneGrid
 from clearway.world.move_map import MoveMap, moves_into
 
+# Ways that take so long (ticks) wait for a robot that stands between two cells for ever.
+FOREVER = _core.NEVER // 2
+
 Moves = Callable[[Cell, Cell], MoveMap]
 
 
@@ -91,7 +94,7 @@ class LaneWays:
             limit,
         )
         self.expansions += way.expansions
-        if not way.found:
+        if not way.found or way.ready >= FOREVER:
             return None
         return LaneWay(way.stays, self._waits(way), way.ready)
 
