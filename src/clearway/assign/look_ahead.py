@@ -39,7 +39,7 @@ class LookAheadParams:
     top_up
         Level below which a robot without orders charges.
     weights
-        What a second of the longest sequence, and one of any, costs.
+        What a second of the longest sequence, one of any, and one after an order is due cost.
     """
 
     rounds: int = 10_000
@@ -48,7 +48,7 @@ class LookAheadParams:
     horizon: int = 300
     patience: float = 3600.0
     top_up: float = 0.6
-    weights: Weights = field(default_factory=lambda: Weights(1.0, 0.1, 0.0, 0.0))
+    weights: Weights = field(default_factory=lambda: Weights(1.0, 0.1, 0.0, 1.0))
 
     def __post_init__(self) -> None:
         for name in ("rounds", "again", "every", "horizon"):
@@ -68,6 +68,8 @@ class LookAhead(ShelfCycle):
     where it was, which is always possible. A robot that has lifted a shelf chooses the station, and
     there the vacant place, from which the way by the place to its next shelf is shortest. A
     shelf with an idle robot under it is fetched by that one. A robot with nothing to do charges.
+    Nobody begins an order while a more urgent one can be begun; orders that are due weigh their
+    lateness in the sequences.
 
     Shelves on board are matched with vacant places all at once, so that no robot stores where
     another counts on. Memory grows with the square of the number of endpoints: some thousands.
@@ -242,11 +244,20 @@ class LookAhead(ShelfCycle):
                 first_temperature=0.1 if self._plans else 1.0,
             ),
             self._seed + self._plans,
+            self._due(ids, board),
         )
         for robot, route in zip(self._sequences, routes, strict=True):
             self._sequences[robot] = [ids[k] for k in route]
         self._plans += 1
         self._begun = 0
+
+    def _due(self, ids: list[str], board: Board) -> Floats | None:
+        """Return in how many seconds (0 or more) orders are due; ``None``: none is."""
+        due = [board.open[id].due for id in ids]
+        if all(second is None for second in due):
+            return None
+        now = to_seconds(board.now)
+        return np.array([math.inf if d is None else max(d - now, 0.0) for d in due])
 
     def _at(self, robot: str) -> int:
         owned = self.yard.owned(robot)
