@@ -106,6 +106,51 @@ def test_long_open_orders_go_first() -> None:
     assert begun[1200.0] > begun[200.0]
 
 
+def test_more_urgent_orders_go_first() -> None:
+    """While an urgent order can be begun nobody begins another, wherever its shelf is."""
+    base = shelf_batch(SMALL, 3, 24, 5)
+    level = {order.task.id: float(k % 3) for k, order in enumerate(base.orders)}
+    orders = tuple(replace(order, priority=level[order.task.id]) for order in base.orders)
+    scenario = replace(base, orders=orders)
+    log = run(scenario, LookAhead(scenario))
+    fetched = [level[c.trip.order or ""] for _, _, c in log.driven if c.trip.purpose == "fetch"]
+    assert fetched == [2.0] * 8 + [1.0] * 8 + [0.0] * 8
+
+
+def test_alike_priorities_and_no_due_times_change_nothing() -> None:
+    base = shelf_batch(SMALL, 4, 20, 7)
+    alike = replace(base, orders=tuple(replace(o, priority=3.0) for o in base.orders))
+    one, other = (run(s, LookAhead(s)).driven for s in (base, alike))
+    assert [(b, e, c.trip) for b, e, c in one] == [(b, e, c.trip) for b, e, c in other]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_orders_that_are_due_are_less_late(seed: int) -> None:
+    """Every fourth of 24 orders is due after 100 s: their lateness in sum is less than halved."""
+    base = shelf_batch(SMALL, 3, 24, seed)
+    soon = {order.task.id for order in base.orders[::4]}
+    orders = tuple(
+        replace(order, due=100.0 if order.task.id in soon else None) for order in base.orders
+    )
+    late = []
+    for scenario in (base, replace(base, orders=orders)):
+        log = run(scenario, LookAhead(scenario))
+        stored = {c.trip.order: e / 1000.0 for _, e, c in log.driven if c.trip.purpose == "store"}
+        late.append(sum(max(0.0, stored[id] - 100.0) for id in soon))
+    assert late[1] < 0.5 * late[0]
+
+
+def test_an_order_waits_for_those_before_it() -> None:
+    base = shelf_batch(SMALL, 3, 9, 4)
+    first, *others = base.orders
+    scenario = replace(base, orders=(replace(first, after=(others[-1].task.id,)), *others))
+    log = run(scenario, LookAhead(scenario))
+    assert not log.open
+    begin = {c.trip.order: b for b, _, c in log.driven if c.trip.purpose == "fetch"}
+    stored = {c.trip.order: e for _, e, c in log.driven if c.trip.purpose == "store"}
+    assert begin[first.task.id] >= stored[others[-1].task.id]
+
+
 def test_a_robot_with_nothing_to_do_charges() -> None:
     """At 50 % after the only order it charges, at 70 % it does not."""
     for level, expected in ((0.5, 1), (0.7, 0)):

@@ -16,6 +16,7 @@ from tests.assign.lone_fleet import (
 from clearway.assign.nearest_idle import NearestIdle
 from clearway.assign.shelf_cycle import ShelfParams
 from clearway.model import Battery, Layout
+from clearway.protocols import Board, RobotView
 from clearway.world.channels import lane_grid
 
 SMALL = lane_grid(Layout("bidirectional", (3,), 1))  # 6 shelves, 6 stations, 3 chargers
@@ -87,6 +88,30 @@ def test_a_refused_trip_is_wanted_again() -> None:
     assert not log.open
     check_ownership(scenario, log)
     check_shelves(scenario, log)
+
+
+def test_more_urgent_orders_go_first() -> None:
+    """Of one robot's orders the two of priority 2 go first, as they arrived; then 1, then 0."""
+    scenario = yard(SMALL, 1, ["g2", "g3", "g4", "g5"])
+    given = zip(scenario.orders, (0.0, 2.0, 1.0, 2.0), strict=True)
+    orders = tuple(replace(order, priority=priority) for order, priority in given)
+    scenario = replace(scenario, orders=orders)
+    log = run(scenario, NearestIdle(scenario))
+    fetched = [c.trip.order for _, _, c in log.driven if c.trip.purpose == "fetch"]
+    assert fetched == ["o2", "o4", "o3", "o1"]
+
+
+def test_an_order_that_is_refused_again_and_again_goes_to_another_robot() -> None:
+    """The robot under g1 never gets a way, so the other one fetches g1 in the end."""
+    scenario = yard(SMALL, 2, ["g1"])
+    board = Board(0, {r.id: RobotView(r.id, r.type, r.start) for r in scenario.robots})
+    board.open = {"o1": scenario.orders[0]}
+    dispatcher = NearestIdle(scenario)
+    tried = []
+    for refusals in range(7):
+        board.refusals["o1"] = refusals
+        tried += [choice.trip.robot for choice in dispatcher(board)]
+    assert tried == ["agv-1"] * 3 + ["agv-2"] * 3 + ["agv-1"]
 
 
 def test_an_order_waits_for_those_before_it() -> None:

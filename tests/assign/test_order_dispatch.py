@@ -183,6 +183,13 @@ def test_the_oldest_order_goes_to_the_nearest_robot() -> None:
 
 
 @pytest.mark.parametrize("rule", [NearestOrder, OldestOrder])
+def test_more_urgent_orders_go_first(rule: type[NearestOrder] | type[OldestOrder]) -> None:
+    scenario = hall(("a", 10.0, 10.0))
+    orders = [order("o1", 10.0, 12.0), order("o2", 90.0, 90.0, priority=1.0)]
+    assert decide(rule(scenario), board(scenario, orders)) == [("a", "o2")]
+
+
+@pytest.mark.parametrize("rule", [NearestOrder, OldestOrder])
 def test_only_who_may_and_can_is_asked(rule: type[NearestOrder] | type[OldestOrder]) -> None:
     """Orders may need a capability, be kept for a robot, be had by another, or have to wait."""
     scenario = hall(*NEAREST)

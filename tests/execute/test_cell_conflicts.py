@@ -49,8 +49,18 @@ def test_turning_on_the_spot_holds_the_cell_only():
 def test_pieces_off_the_grid_are_refused_by_name():
     with pytest.raises(ValueError, match=r"robot east, piece 0: does not lead along a row"):
         holds_of(GRID, at_once("east", (0.5, 2.5), 4.0, 0, 4000, theta=0.3))
+    half = at_once("east", (0.5, 2.5), 3.5, 0, 3500)
+    rest = at_once("east", (4.0, 2.5), 0.5, 3500, 4000)
+    both = replace(half, pieces=half.pieces + rest.pieces, timing=half.timing + rest.timing)
     with pytest.raises(ValueError, match=r"to the middle of another"):
-        holds_of(GRID, at_once("east", (0.5, 2.5), 3.5, 0, 4000))
+        holds_of(GRID, both)
+
+
+def test_who_stops_between_two_cells_holds_both_for_ever():
+    """In front of an obstacle: half of the move from (3, 2) to (4, 2), begun at 3000."""
+    *_, last, ahead = holds_of(GRID, at_once("east", (0.5, 2.5), 3.5, 0, 3500))
+    assert (last.cell, last.go, last.leave) == ((3, 2), 3000, NEVER)
+    assert (ahead.cell, ahead.enter, ahead.there) == ((4, 2), 3000, NEVER)
 
 
 def test_who_crosses_waits_until_the_cell_is_left():

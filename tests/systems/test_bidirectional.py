@@ -32,6 +32,16 @@ WAREHOUSE = Scenario(
 CARRY = OrderStream("s", rate=60.0, draws=(Draw("station"),))
 
 
+@pytest.mark.parametrize("dispatch", ["nearest", "ahead"])
+def test_orders_wait_for_others(dispatch: str) -> None:
+    later = Order(Task("t", (), None, "g8"), after=("o",), priority=1.0)
+    scenario = replace(WAREHOUSE, orders=(later, FETCH), settings={"dispatch": dispatch})
+    run = run_through_time(scenario)
+    assert run.status == "done"
+    states = [(e["order"], e["state"]) for e in run.trace.of("order")]
+    assert states.index(("o", "done")) < states.index(("t", "assigned"))
+
+
 def with_task(task: Task) -> Scenario:
     return replace(WAREHOUSE, orders=(Order(task),))
 
@@ -42,10 +52,6 @@ def with_task(task: Task) -> Scenario:
         (replace(WAREHOUSE, site=replace(WAREHOUSE.site, layout=None)), "site: .*give it a layout"),
         (with_task(Task("t", (Visit("t", Pose(3.5, 2.5, 0.0)),))), "task t: has visits"),
         (with_task(Task("t", (), "agv-2", "g9")), "task t: is kept for agv-2.*drop robot"),
-        (
-            replace(WAREHOUSE, orders=(FETCH, Order(Task("t", (), None, "g8"), after=("o",)))),
-            "task t: waits for other tasks.*drop after",
-        ),
         (
             replace(WAREHOUSE, simulation=Simulation(60.0, (CARRY,))),
             "stream s: has visits.*fetch = true",

@@ -1,11 +1,13 @@
 """Orders in good sequences, stations and places chosen with the next order in mind."""
 
+import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from clearway.assign.nearest_idle import TRIES
 from clearway.assign.place_matching import match_places
 from clearway.assign.ruin_recreate import RuinRecreateParams
 from clearway.assign.sequences import improve_sequences
@@ -37,7 +39,7 @@ class LookAheadParams:
     top_up
         Level below which a robot without orders charges.
     weights
-        What a second of the longest sequence, and one of any, costs.
+        What a second of the longest sequence, one of any, and one after an order is due cost.
     """
 
     rounds: int = 10_000
@@ -46,7 +48,7 @@ class LookAheadParams:
     horizon: int = 300
     patience: float = 3600.0
     top_up: float = 0.6
-    weights: Weights = field(default_factory=lambda: Weights(1.0, 0.1, 0.0, 0.0))
+    weights: Weights = field(default_factory=lambda: Weights(1.0, 0.1, 0.0, 1.0))
 
     def __post_init__(self) -> None:
         for name in ("rounds", "again", "every", "horizon"):
@@ -66,6 +68,8 @@ class LookAhead(ShelfCycle):
     where it was, which is always possible. A robot that has lifted a shelf chooses the station, and
     there the vacant place, from which the way by the place to its next shelf is shortest. A
     shelf with an idle robot under it is fetched by that one. A robot with nothing to do charges.
+    Nobody begins an order while a more urgent one can be begun; orders that are due weigh their
+    lateness in the sequences.
 
     Shelves on board are matched with vacant places all at once, so that no robot stores where
     another counts on. Memory grows with the square of the number of endpoints: some thousands.
@@ -123,28 +127,70 @@ class LookAhead(ShelfCycle):
                 order = board.open[id]
                 place = self.yard.where[self._planned[id][1]] or ""
                 fetcher = self.yard.owner(place) or robot  # an idle one under the shelf goes first
+                if self._is_barred(fetcher, id) and self._may_others_fetch(fetcher, place, board):
+                    continue
                 choice = self._propose(board.robots[fetcher], order, place)
+                others = self._may_others_fetch(fetcher, place, board)
+                choice = replace(choice, elsewhere=others)
                 yield choice
                 if board.robots[fetcher].trip is choice.trip:
-                    self._commit_fetch(choice, order, board)
+                    self._commit_fetch(choice, self._planned[id][0], order, board)
                     self._drop(id)
                     self._begun += 1
                 else:
                     refused += 1
+                    if id not in board.open:
+                        self.yard.freed.append(self._planned[id][1])
+                        self._drop(id)  # it cannot be done
                 if fetcher == robot or refused > 1:
                     break
         if not self._planned and not self._low:
             yield from self._top_up(board)
 
     def _candidates(self, robot: str, board: Board) -> list[str]:
-        """Return the orders that a robot may begin now: those long open first, then its own."""
+        """Return the orders that a robot may begin now.
+
+        More urgent ones than its own come first, then those long open, then its own; before them
+        all those that the robots whose they are cannot begin.
+        """
         late = board.now - to_ticks(self.ahead.patience)
         old = [id for id in self._planned if to_ticks(board.open[id].release) < late]
         old.sort(key=lambda id: self._planned[id])
         own = [id for id in self._sequences[robot] if id not in old]
+        ids = list(dict.fromkeys(self._strays(board) + old + own))
+        priority = {id: board.open[id].priority for id in self._planned}
+        if len(set(priority.values())) > 1:
+            mine = [priority[id] for id in own if self._is_ready(id)]
+            least = mine[0] if mine else min(priority.values())
+            urgent = [id for id in self._planned if priority[id] > least and id not in ids]
+            ids += sorted(urgent, key=lambda id: self._way(robot, id))
+            ids.sort(key=lambda id: -priority[id])  # those alike stay in turn
+        return [id for id in ids if self._is_ready(id)]
+
+    def _strays(self, board: Board) -> list[str]:
+        """Return orders in sequences of robots that cannot get there, or are refused often."""
+        if not (self._barred or self._gone or board.refusals):
+            return []
         return [
-            id for id in old + own if super(LookAhead, self)._is_available(self._planned[id][1])
+            id
+            for robot, sequence in self._sequences.items()
+            for id in sequence
+            if board.refusals.get(id, 0) >= TRIES or self._is_barred(robot, id)
         ]
+
+    def _is_barred(self, robot: str, id: str) -> bool:
+        return robot in self._barred_robots(self.yard.where[self._planned[id][1]] or "")
+
+    def _is_ready(self, id: str) -> bool:
+        return super()._is_available(self._planned[id][1])
+
+    def _way(self, robot: str, id: str) -> float:
+        """Return the driving time (s) of a robot to the shelf of an order."""
+        place = self.yard.where[self._planned[id][1]]
+        return math.inf if place is None else self._seconds(robot, place)
+
+    def _seconds(self, robot: str, place: str) -> float:
+        return float(self._far[self._at(robot), self._times.number[place]])
 
     def _is_available(self, shelf: str) -> bool:
         return shelf not in self._shelves and super()._is_available(shelf)
@@ -198,14 +244,36 @@ class LookAhead(ShelfCycle):
                 first_temperature=0.1 if self._plans else 1.0,
             ),
             self._seed + self._plans,
+            self._due(ids, board),
         )
         for robot, route in zip(self._sequences, routes, strict=True):
             self._sequences[robot] = [ids[k] for k in route]
         self._plans += 1
         self._begun = 0
 
+    def _due(self, ids: list[str], board: Board) -> Floats | None:
+        """Return in how many seconds (0 or more) orders are due; ``None``: none is."""
+        due = [board.open[id].due for id in ids]
+        if all(second is None for second in due):
+            return None
+        now = to_seconds(board.now)
+        return np.array([math.inf if d is None else max(d - now, 0.0) for d in due])
+
     def _at(self, robot: str) -> int:
-        return self._times.number[self.yard.owned(robot) or ""]
+        owned = self.yard.owned(robot)
+        return self._free[robot][0] if owned is None else self._times.number[owned]
+
+    @property
+    def _is_upset(self) -> bool:
+        """Whether obstacles have come between shelves and places: nothing is matched any more."""
+        return bool(self._barred) or not self.yard.is_whole
+
+    def _driven_off(self, view: RobotView, now: int) -> None:
+        """Take a robot to be at the endpoint nearest to where it is."""
+        pose = self.yard.pose
+        near = min(pose, key=lambda name: (pose[name].distance(view.pose), name))
+        self._free[view.id] = self._times.number[near], now
+        self._bring.pop(view.id, None)
 
     def _next_place(self, robot: str) -> int | None:
         """Return where the shelf of a robot's next order is, if it has one."""
@@ -232,19 +300,25 @@ class LookAhead(ShelfCycle):
 
     def _stations(self, view: RobotView, shelf: str, number: int) -> list[Alternative]:
         at = self._at(view.id)
-        names = self.yard.stations.names()
+        barred = self._barred_from(view.id)
+        names = [name for name in self.yard.stations.names() if name not in barred]
         stations = [self._times.number[name] for name in names]
         if not stations:
             return []
+        if self._is_upset:
+            return _ranked(names, self._far[at, stations], number)
         self._bring[view.id] = at, stations
         place = self._match()[view.id]
         return _ranked(names, self._far[at, stations] + self._far[stations, place], number)
 
     def _places(self, view: RobotView, number: int) -> list[Alternative]:
-        names = self.yard.vacant.names()
+        barred = self._barred_from(view.id)
+        names = [name for name in self.yard.vacant.names() if name not in barred]
         places = [self._times.number[name] for name in names]
         at = self._at(view.id)
         onward = self._far[at, places] + self._onward(view.id, places)
+        if self._is_upset:
+            return _ranked(names, onward, number)
         best = places.index(self._match(storing=view.id)[view.id])
         ranked = _ranked(names, onward, number)
         mine = Alternative(names[best], float(onward[best]))

@@ -1,6 +1,6 @@
 """Named points, some of them present, found by distance."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 
 import numpy as np
 
@@ -56,7 +56,11 @@ class Nearby:
         self._mask[number] = False
 
     def nearest(
-        self, pose: Pose, count: int = 1, distance: Callable[[str], float] | None = None
+        self,
+        pose: Pose,
+        count: int = 1,
+        distance: Callable[[str], float] | None = None,
+        without: Collection[str] = (),
     ) -> list[Alternative]:
         """Return the nearest points that are present, nearest first, with their distances (m).
 
@@ -66,8 +70,12 @@ class Nearby:
             How many at most.
         distance
             Distance of a point (m), never below the Manhattan distance, which holds without it.
+        without
+            Points that are not asked for.
         """
         numbers = np.flatnonzero(self._mask)
+        if without:
+            numbers = np.array([k for k in numbers if self._names[k] not in without], np.int64)
         if not len(numbers):
             return []
         far = np.abs(self._xy[numbers] - (pose.x, pose.y)).sum(axis=1)

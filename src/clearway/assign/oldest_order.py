@@ -1,4 +1,4 @@
-"""The oldest order to the nearest idle robot."""
+"""The most urgent, then oldest, order to the nearest idle robot."""
 
 from collections.abc import Iterator
 
@@ -10,7 +10,9 @@ ALTERNATIVES = 3  # told beside the robot that was chosen
 
 
 class OldestOrder:
-    """Dispatches open orders as they arrived, each to the idle robot nearest to its first visit.
+    """Dispatches open orders, each to the idle robot nearest to its first visit.
+
+    More urgent orders go first, those of one priority as they arrived.
 
     Where no way is found for that robot, the next nearest one is tried.
     """
@@ -19,9 +21,10 @@ class OldestOrder:
         self._trips = OrderTrips(scenario)
 
     def __call__(self, board: Board) -> Iterator[Choice]:
-        """Yield the trips wanted, oldest order first."""
+        """Yield the trips wanted, most urgent, then oldest, order first."""
         idle = [view for view in board.robots.values() if view.is_idle]
-        for order in self._trips.waiting(board) if idle else ():
+        orders = self._trips.waiting(board) if idle else []
+        for order in sorted(orders, key=lambda order: -order.priority):
             first = order.visits[0].pose
             able = [view for view in idle if self._trips.may(view, order)]
             able.sort(key=lambda view: first.distance(view.pose))

@@ -23,6 +23,7 @@ def improve_sequences(
     weights: Weights,
     params: RuinRecreateParams,
     seed: int,
+    due: Floats | None = None,
 ) -> list[list[int]]:
     """Return better sequences of orders than those to begin with.
 
@@ -38,6 +39,9 @@ def improve_sequences(
         Time (s) that each order takes from its shelf on, ``(orders,)``.
     first
         One sequence of order numbers per robot, all orders in them.
+    due
+        Seconds from now in which each order should be done, ``(orders,)``; infinite: at any time.
+        ``weights.tardiness`` is what a second after that costs.
     """
     m, n = len(at), len(places)
     start = far[np.ix_(at, places)] + np.asarray(busy)[:, None]
@@ -50,6 +54,7 @@ def improve_sequences(
         np.zeros((n, n)),
         inner=inner[None, :],
         weights=weights,
+        **({} if due is None else {"due": due}),
     )
     costs = native_costs(problem)
     return _core.ruin_recreate(costs, [list(route) for route in first], n, params, seed)

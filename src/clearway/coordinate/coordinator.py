@@ -91,6 +91,7 @@ class Coordinator:
         diverted, given_back = self._divert(seen, failed)
         changed |= {robot: self._trips.commitment(robot) for robot in diverted}
         told: list[Told] = []
+        is_soon = False  # whether something else is to be tried at once
         for choice in self._dispatch(board):
             outcome = self._try(choice)
             if outcome is None:
@@ -100,12 +101,16 @@ class Coordinator:
                 changed[choice.trip.robot] = outcome.outcome
                 for other in self._trips.changed:
                     changed[other.robot] = other
+            elif outcome.outcome.for_good and choice.elsewhere:
+                is_soon = True
             elif outcome.outcome.for_good and choice.trip.order is not None:
                 failed[choice.trip.order] = outcome.outcome.reason
                 board.open.pop(choice.trip.order, None)
+                board.taken.pop(choice.trip.order, None)
+                is_soon = True
         board.ended = board.arrived = ()
-        waits = [again for _, again in self._refused.values()]
-        wake = max(min(waits), seen.now + 1) if waits else None
+        waits = [again for _, again in self._refused.values() if again > seen.now]
+        wake = seen.now + 1 if is_soon else min(waits, default=None)
         return Decision(
             changed, tuple(told), tuple(done), failed, tuple(diverted), tuple(given_back), wake
         )
@@ -119,10 +124,14 @@ class Coordinator:
             before = {robot: self._trips.commitment(robot) for robot in board.robots}
             for robot in self._trips.block(obstacle, seen.now, lead):
                 diverted[robot] = None
-                trip = board.robots[robot].trip
-                if trip is None or self._trips.commitment(robot).trip is trip:
+                trip, commitment = board.robots[robot].trip, self._trips.commitment(robot)
+                if trip is not None and commitment.trip is trip:
                     continue
-                self._see(robot, trip=None, idle_since=seen.now, ready=seen.now)
+                end = commitment.trajectory.final_pose
+                self._see(robot, trip=None, pose=end, place=commitment.rest)
+                if trip is None:
+                    continue
+                self._see(robot, idle_since=seen.now, ready=seen.now)
                 if trip.order is None:
                     continue
                 board.taken.pop(trip.order, None)
@@ -145,6 +154,13 @@ class Coordinator:
         outcome = self._trips.plan(trip, board.now, effort, self._params.lead)
         spent = self._cpu() - begin
         if isinstance(outcome, Refusal):
+            if outcome.for_good:
+                zones = {zone for zone in trip.goals if zone is not None}
+                board.barred.setdefault(trip.robot, set()).update(zones)
+            if outcome.stranded:
+                board.stranded.add(trip.robot)
+            if outcome.for_good and choice.elsewhere:
+                return Told(choice, outcome, spent)
             pause = min(self._params.retry * 2**times, self._params.most_retry)
             self._refused[trip.robot] = (times + 1, board.now + pause)
             if trip.order is not None:

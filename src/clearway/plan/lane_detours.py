@@ -97,7 +97,12 @@ class LaneDetours:
         ]
         if self._standing:
             clashes = self._holds.clashes(me, route)
-            ends += [clash.index for clash in clashes if clash.other in self._standing]
+            # Where it has been is over: what is kept of a past after delays is not exact.
+            ends += [
+                clash.index
+                for clash in clashes
+                if clash.other in self._standing and route[clash.index].arrive > self._now
+            ]
         return min(ends, default=None)
 
     def _detour(self, me: int, nodes: Sequence[int]) -> bool:

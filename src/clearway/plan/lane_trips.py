@@ -26,7 +26,7 @@ from clearway.plan.lane_ways import LaneWay, LaneWays, Moves
 from clearway.plan.named_waits import retimed_waits
 from clearway.plan.waits_by_rule import ROUNDS, WaitsByRule
 from clearway.protocols import Refusal
-from clearway.world.lane_grid import LaneGrid
+from clearway.world.lane_grid import Cell, LaneGrid
 
 LIMIT = 100_000  # expansions of a search, times the effort
 
@@ -108,7 +108,8 @@ class LaneTrips:
         me = self._number[trip.robot]
         old = self._committed[trip.robot]
         start, goal = old.trajectory.final_pose, trip.visits[0].pose
-        ready = max(now + lead, old.served)
+        # Without a trip it may still drive to a refuge from an obstacle.
+        ready = max(now + lead, old.served, old.trajectory.end)
         way = self._by_rules(me, start, goal, ready, now)
         if way is None:
             granted, limit = now + self._notice, LIMIT * effort
@@ -117,6 +118,9 @@ class LaneTrips:
             if way is None and self._ways.has_closed:
                 # Obstacles may leave no way along the lanes.
                 way = self._ways.earliest(me, start, goal, ready, granted, limit, True)
+            if way is None and self._is_cut_off(start, goal):
+                reason = f"obstacles close all ways from {trip.robot} to {trip.goals[0] or goal}"
+                return Refusal(reason, ("obstacle",), for_good=True)
             if way is None:
                 return Refusal(
                     f"no way to {trip.goals[0] or goal} in {limit} expansions",
@@ -185,13 +189,37 @@ class LaneTrips:
         if cell not in self._endpoint or not self._in_middle(pose):
             return Refusal(f"{pose} is not the middle of an endpoint", for_good=True)
         if not self._in_middle(self._committed[trip.robot].trajectory.final_pose):
-            return Refusal(f"{trip.robot} stands in front of an obstacle", ("obstacle",))
+            reason = f"{trip.robot} stands in front of an obstacle"
+            return Refusal(reason, ("obstacle",), for_good=True, stranded=True)
         if self._ways.is_shut(cell):
             reason = f"an obstacle closes the way to {self._endpoint[cell]}"
             return Refusal(reason, ("obstacle",), for_good=True)
         if taken := self._ways.owner(cell, self._number[trip.robot]):
-            return Refusal(f"{self._endpoint[cell]} is taken by {taken}", (taken,))
+            is_stuck = not self._in_middle(self._committed[taken].trajectory.final_pose)
+            reason = f"{self._endpoint[cell]} is taken by {taken}"
+            return Refusal(reason, (taken,), for_good=is_stuck)
         return None
+
+    def _is_cut_off(self, start: Pose, goal: Pose) -> bool:
+        """Whether no way is left past obstacles and robots that can never leave lanes."""
+        stuck: set[Cell] = set()
+        standing: list[Cell] = []
+        for robot, committed in self._committed.items():
+            pose = committed.trajectory.final_pose
+            if not self._in_middle(pose):  # between two cells
+                route = self._holds.route(self._number[robot])
+                stuck.update(self._ways.cell(stay.cell) for stay in route[-2:])
+            elif (cell := self.grid.cell_at(pose)) not in self._endpoint:
+                standing.append(cell)
+        while trapped := [
+            cell
+            for cell in standing
+            if not self._ways.within_reach(cell, stuck).intersection(self._endpoint)
+        ]:
+            stuck.update(trapped)
+            standing = [cell for cell in standing if cell not in stuck]
+        cell = self.grid.cell_at(start)
+        return self.grid.cell_at(goal) not in self._ways.within_reach(cell, stuck)
 
     def _in_middle(self, pose: Pose) -> bool:
         middle = self.grid.centre(self.grid.cell_at(pose))

@@ -13,6 +13,9 @@ from clearway.plan.route_search import RouteSearch
 from clearway.world.lane_grid import CROSSING, HORIZONTAL, STEPS, T_CROSSING, Cell, LaneGrid
 from clearway.world.move_map import MoveMap, moves_into
 
+# Ways that take so long (ticks) wait for a robot that stands between two cells for ever.
+FOREVER = _core.NEVER // 2
+
 Moves = Callable[[Cell, Cell], MoveMap]
 
 
@@ -51,6 +54,7 @@ class LaneWays:
         self._search = _core.LaneSearch(self.holds, self.may_wait, self.quarter)
         self._route = RouteSearch(grid, self.step, self.quarter)
         self._moves = moves
+        self._ends = {point.cell for point in grid.endpoints.values()}
         self._free = np.ones(grid.region.shape, np.bool_)
         self._open: MoveMap | None = None  # moves that do not lead into closed cells
 
@@ -90,7 +94,7 @@ class LaneWays:
             limit,
         )
         self.expansions += way.expansions
-        if not way.found:
+        if not way.found or way.ready >= FOREVER:
             return None
         return LaneWay(way.stays, self._waits(way), way.ready)
 
@@ -123,6 +127,26 @@ class LaneWays:
         """Whether an endpoint, or all channel cells beside it, are closed."""
         cells = self.grid.entrances(endpoint)
         return not (self._free[endpoint[::-1]] and any(self._free[y, x] for x, y in cells))
+
+    def within_reach(self, start: Cell, stuck: Collection[Cell] = ()) -> set[Cell]:
+        """Return the cells to which ways past closed and ``stuck`` ones lead, endpoints too."""
+        free = self._free.copy()
+        for x, y in stuck:
+            free[y, x] = False
+        reached, ahead = {start}, [start]
+        while ahead:
+            x, y = ahead.pop()
+            for dx, dy in STEPS.values():
+                cell = x + dx, y + dy
+                is_channel = self.grid.is_channel(cell)
+                # Endpoints are left and entered from channels only.
+                if not is_channel and not ((x, y) not in self._ends and cell in self._ends):
+                    continue
+                if free[cell[::-1]] and cell not in reached:
+                    reached.add(cell)
+                    if is_channel:
+                        ahead.append(cell)
+        return reached
 
     def owner(self, cell: Cell, robot: int) -> str | None:
         """Return who other than ``robot`` rests, or will rest, in a cell."""

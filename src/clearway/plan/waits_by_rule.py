@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from clearway import _core
 from clearway.plan.crossing_conflicts import Conflict, Node, kind_of, place_of
+from clearway.plan.lane_ways import FOREVER
 from clearway.plan.waiting_rules import ruling, waiting_nodes
 from clearway.world.lane_grid import LaneGrid
 
@@ -144,7 +145,9 @@ class WaitsByRule:
         self, robot: int, stays: Sequence[_core.CellStay], index: int, other: int, granted: int
     ) -> Pause | None:
         by = self._holds.least_delay(robot, stays, index, other, granted)
-        return Pause(robot, index, stays[index].turn_begin, by, other) if by >= 0 else None
+        if by < 0 or stays[-1].arrive + by >= FOREVER:
+            return None  # none is enough, or the other stands there for ever
+        return Pause(robot, index, stays[index].turn_begin, by, other)
 
     def _nodes(self, stays: Sequence[_core.CellStay]) -> list[Node]:
         width = self._grid.size[0]

@@ -11,13 +11,14 @@ from clearway.model import Commitment, Obstacle, Order, Pose, Trajectory, Trip
 class Refusal:
     """No trip now: why, and the robots (or causes such as ``charger:c3``) that stand against it.
 
-    ``for_good``: it never becomes possible.
+    ``for_good``: it never becomes possible. ``stranded``: nor does any other trip of the robot.
     """
 
     reason: str
     causes: tuple[str, ...] = ()
     for_good: bool = False
     expansions: int = 0
+    stranded: bool = False
 
 
 class TripPlanner(Protocol):
@@ -120,7 +121,8 @@ class Board:
 
     ``open`` holds orders by id in the order of their arrival, each until a trip that serves it
     ends it. ``taken`` tells whose order is whose, ``refusals`` how often in a row a trip that
-    begins an order has been refused.
+    begins an order has been refused. ``barred`` tells the zones that a robot can never drive to,
+    ``stranded`` the robots that can never drive again, both as trips were refused for good.
     """
 
     now: int
@@ -128,6 +130,8 @@ class Board:
     open: dict[str, Order] = field(default_factory=dict)
     taken: dict[str, str] = field(default_factory=dict)
     refusals: dict[str, int] = field(default_factory=dict)
+    barred: dict[str, set[str]] = field(default_factory=dict)
+    stranded: set[str] = field(default_factory=set)
     arrived: tuple[str, ...] = ()
     ended: tuple[TripEnded, ...] = ()
 
@@ -146,7 +150,8 @@ class Choice:
 
     ``kind`` says what was chosen among ``alternatives``: ``robot``, ``order``, ``station``,
     ``location``, ``charger``, ``bay``; ``chosen`` is the name and ``score`` the cost of what was.
-    ``completes`` tells whether the order is done when the trip ends.
+    ``completes`` tells whether the order is done when the trip ends; ``elsewhere``, whether
+    another robot or goal is tried if it is refused for good: else its order fails.
     """
 
     trip: Trip
@@ -156,6 +161,7 @@ class Choice:
     alternatives: tuple[Alternative, ...] = ()
     completes: bool = True
     because: str = ""
+    elsewhere: bool = False
 
 
 class Dispatcher(Protocol):

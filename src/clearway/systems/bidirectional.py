@@ -115,9 +115,4 @@ def _unsupported(scenario: Scenario) -> tuple[str, ...]:
         for order in scenario.orders
         if order.task.robot is not None
     ]
-    reasons += [
-        f"task {order.task.id}: waits for other tasks, which system B does not; drop after"
-        for order in scenario.orders
-        if order.after
-    ]
     return tuple(reasons)
