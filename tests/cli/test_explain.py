@@ -33,6 +33,17 @@ def test_the_chain_is_one_object(clearway, run):
     assert all(each["alternatives"] for each in first["decisions"])
 
 
+def test_a_trace_that_was_cut_short_is_said_to_be(clearway, run):
+    """Motions are written once they are over, so why a robot stands at its end may be missing."""
+    assert "cut short" not in clearway("explain", run, "--robot", "agv-1", "--at", 100).out
+    trace = run / "trace.jsonl"
+    lines = trace.read_text().splitlines(keepends=True)
+    trace.write_text("".join(lines[:-1]))
+    question = ("explain", run, "--robot", "agv-1", "--at", 100)
+    assert "The trace is cut short at " in clearway(*question).out.splitlines()[-1]
+    assert clearway(*question, "--json").json["whole"] is False
+
+
 @pytest.mark.parametrize(
     ("robot", "at", "mend"),
     [("agv-11", 100, "did you mean agv-1?"), ("agv-1", 9000, "give a time from 0 to")],

@@ -201,3 +201,52 @@ def test_a_shelf_is_not_fetched_by_planning_once() -> None:
     made = room(place("g1", "shelf", 10.0), orders=orders, simulation=Simulation())
     with pytest.raises(Unsupported, match="task o7 fetches a shelf"):
         plan_once(made, choose_system(made), Budget(), 0)
+
+
+def test_a_run_without_any_orders_is_told() -> None:
+    bay = place("bay", "parking", 30.0)
+    idle = room(bay, simulation=Simulation(60.0))
+    assert [(f.kind, f.severity) for f in check_scenario(idle).findings] == [("no_work", "warning")]
+    assert check_scenario(room(bay)).findings == ()
+
+
+def test_shelves_of_a_layout_are_room_to_rest_before_anything_is_fetched() -> None:
+    site, kind = site_of(PAPER), agv_type(PAPER)
+    start = site.zones_of("shelf")[0].pose
+    assert start is not None
+    simulation = Simulation(60.0)
+    idle = Scenario(
+        "b", site, {"agv": kind}, (Robot("r1", "agv", start),), (), simulation=simulation
+    )
+    assert [finding.kind for finding in check_scenario(idle).findings] == ["no_work"]
+
+
+def test_zones_under_an_obstacle_that_comes_to_light() -> None:
+    """Named where a body cannot stand there; beside it, or after the end, all is well."""
+    bay = place("bay", "parking", 30.0)
+
+    def found(at: float, x: float) -> list[Finding]:
+        surprise = Surprise(at, Obstacle(disc=(x, 5.0, 0.5)))
+        simulation = Simulation(60.0, (CARRY,), surprises=(surprise,))
+        return list(check_scenario(room(bay, simulation=simulation)).findings)
+
+    (finding,) = found(20.0, 19.2)  # 0.8 m from the middle, of a body of 0.4 m
+    assert (finding.kind, finding.severity) == ("covered", "warning")
+    assert finding.key == "simulation.surprises[0]"
+    assert "covers dock from 20 s on" in finding.text
+    assert found(20.0, 19.0) == []
+    assert [finding.kind for finding in found(60.0, 20.0)] == ["too_late"]
+
+
+def test_an_obstacle_that_is_there_from_the_start_is_on_nobody() -> None:
+    bay = place("bay", "parking", 30.0)
+
+    def found(at: float) -> list[Finding]:
+        surprise = Surprise(at, Obstacle(disc=(1.0, 1.0, 0.5)))
+        simulation = Simulation(60.0, (CARRY,), surprises=(surprise,))
+        return list(check_scenario(room(bay, simulation=simulation)).findings)
+
+    (finding,) = found(0.0)
+    assert (finding.kind, finding.severity) == ("start_in_obstacle", "error")
+    assert finding.robots == ("r1",)
+    assert found(1.0) == []

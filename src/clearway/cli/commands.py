@@ -4,6 +4,7 @@ import argparse
 import json
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from clearway.formats.scenario_file import read_scenario
 from clearway.model import Scenario
 from clearway.protocols import Budget
 from clearway.systems.solve import FEW_ROBOTS, Run, judge_plan, make_plan
+from clearway.validate.finding import Finding
 
 
 def _print_json(content: dict[str, Any]) -> None:
@@ -135,6 +137,7 @@ def run_check(arguments: argparse.Namespace) -> int:
 
     scenario = read_scenario(Path(arguments.scenario))
     legality = check_scenario(scenario)
+    legality = replace(legality, findings=(*legality.findings, *_refused(scenario)))
     picture = None
     if arguments.out:
         from clearway.plot.picture import draw_site
@@ -181,7 +184,12 @@ def run_check(arguments: argparse.Namespace) -> int:
         tightest = sorted(legality.clearances.items(), key=lambda item: item[1])[:5]
         print("least clearances: " + ", ".join(f"{key} {gap:.3f} m" for key, gap in tightest))
         within = set().union(*legality.reachable.values())
-        print(f"{len(within)} of {num_tasks} tasks lie within reach of a robot that may do them")
+        if num_tasks or not scenario.simulation.streams:
+            print(
+                f"{len(within)} of {num_tasks} tasks lie within reach of a robot that may do them"
+            )
+        for stream in scenario.simulation.streams:
+            print(f"stream {stream.name}: orders come as the run goes on")
     for number, finding in enumerate(legality.findings, start=1):
         print(f"{number}. {finding.severity}: {finding.key}: {finding.text}")
     if legality and not arguments.quiet:
@@ -189,6 +197,23 @@ def run_check(arguments: argparse.Namespace) -> int:
     if picture:
         print(picture)
     return DONE if legality else BAD_INPUT
+
+
+def _refused(scenario: Scenario) -> list[Finding]:
+    """Return what the system of a scenario that runs through time cannot take.
+
+    Raises
+    ------
+    SettingsError
+        If the system or a setting does not exist.
+    """
+    from clearway.systems.choose import choose_lifelong
+    from clearway.systems.simulate import unsupported
+    from clearway.validate.endurance import runs_through_time
+
+    system = choose_lifelong(scenario)
+    reasons = unsupported(scenario, system) if runs_through_time(scenario) else ()
+    return [Finding("unsupported", "error", "system", reason) for reason in reasons]
 
 
 def run_validate(arguments: argparse.Namespace) -> int:

@@ -14,15 +14,20 @@ from clearway.plot.explain import as_json, as_text, explain
 def run_explain(arguments: argparse.Namespace) -> int:
     """Print the chain of causes of one robot at one moment."""
     path = _trace_in(Path(arguments.path))
-    happened = chronicle(read_trace(path))
+    trace = read_trace(path)
+    happened = chronicle(trace)
     try:
         chain = explain(happened, arguments.robot, arguments.at)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from None
     if arguments.json:
-        print(json.dumps(as_json(chain, arguments.at), allow_nan=False))
+        told = {**as_json(chain, arguments.at), "whole": trace.is_whole}
+        print(json.dumps(told, allow_nan=False))
     else:
         print(as_text(chain, arguments.at))
+        if not trace.is_whole:
+            # Motions are written once they are over.
+            print(f"The trace is cut short at {happened.duration:g} s: what went on is not in it.")
     return DONE
 
 

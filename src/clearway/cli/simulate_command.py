@@ -7,7 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG
+from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG, interrupted
 from clearway.cli.progress import ProgressLine
 from clearway.formats.atomic import write_text
 from clearway.formats.plan_file import write_plan
@@ -21,10 +21,14 @@ from clearway.model import Scenario, Trace
 from clearway.protocols import Budget
 from clearway.simulate.events import Record
 from clearway.systems.simulate import Simulated, simulate
+from clearway.validate.finding import Finding
 from clearway.validate.trace_judge import validate_trace
 from clearway.validate.violation import Violation
 
 CODES = {"done": DONE, "ended": DONE, "interrupted": INTERRUPTED}
+
+# More are not read; `clearway check` tells them all.
+MOST_WARNINGS = 20
 
 
 def run_simulate(arguments: argparse.Namespace) -> int:
@@ -33,7 +37,13 @@ def run_simulate(arguments: argparse.Namespace) -> int:
     scenario = read_scenario(source)
     out.mkdir(parents=True, exist_ok=True)
     trace_file = out / "trace.jsonl"
+    warnings: list[Finding] = []
     with ProgressLine(quiet=arguments.quiet) as line, ExitStack() as stack:
+
+        def warn(finding: Finding) -> None:
+            warnings.append(finding)
+            if not arguments.json and len(warnings) <= MOST_WARNINGS:
+                line.note(f"warning: {source}: {finding.key}: {finding.text}")
 
         def record(header: Trace) -> Record:
             # What an earlier run left here would belie this one.
@@ -48,19 +58,24 @@ def run_simulate(arguments: argparse.Namespace) -> int:
             budget=Budget(arguments.budget, arguments.expansions),
             record=record,
             tell=line.running(scenario.simulation.until),
+            warn=warn,
             clock=time.process_time,
         )
         stack.close()
         if run.status == "interrupted":
             return _told_interrupted(arguments, run, trace_file)
-        line.say("judging")
-        # What is judged is what was written.
-        trace = read_trace(trace_file)
-        violations = validate_trace(trace)
-        line.say("writing the run folder")
-        files = _write(trace, violations, out)
+        try:
+            line.say("judging")
+            # What is judged is what was written.
+            trace = read_trace(trace_file)
+            violations = validate_trace(trace)
+            line.say("writing the run folder")
+            files = _write(trace, violations, out)
+        except KeyboardInterrupt:
+            kept = f"the whole trace is in {trace_file}; clearway validate {trace_file} judges it"
+            return interrupted(arguments, kept)
     code = WRONG if violations else CODES.get(run.status, NO_ANSWER)
-    _tell(arguments, scenario, run, trace, violations, files)
+    _tell(arguments, scenario, run, trace, violations, warnings, files)
     return code
 
 
@@ -85,6 +100,7 @@ def _tell(
     run: Simulated,
     trace: Trace,
     violations: list[Violation],
+    warnings: list[Finding],
     files: list[Path],
 ) -> None:
     metrics = trace_metrics(trace)
@@ -95,6 +111,7 @@ def _tell(
             "seed": trace.seed,
             "status": run.status,
             "violations": [str(violation) for violation in violations],
+            "warnings": [f"{finding.key}: {finding.text}" for finding in warnings],
             "files": [str(path) for path in files],
         }
         print(json.dumps(summary, allow_nan=False))
@@ -110,8 +127,6 @@ def _tell(
 
 
 def _told_interrupted(arguments: argparse.Namespace, run: Simulated, file: Path) -> int:
-    from clearway.cli.main import interrupted
-
     end = run.trace.events[-1]
     kept = (
         f"the trace up to {end['t']:.1f} s is in {file}, marked interrupted "

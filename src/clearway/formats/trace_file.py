@@ -48,8 +48,13 @@ class TraceWriter:
 
     def __init__(self, path: str | os.PathLike[str], header: Trace) -> None:
         first = header_line(header)
-        self._file = open(path, "wb")  # noqa: SIM115 (closed by __exit__)
-        self._write(first)
+        # Without a buffer nothing is left in it that closing would fail to write.
+        self._file = open(path, "wb", buffering=0)  # noqa: SIM115 (closed by __exit__)
+        try:
+            self._write(first)
+        except OSError:
+            self._file.close()
+            raise
 
     def __call__(self, event: Mapping[str, Any]) -> None:
         """Append an event.
@@ -76,5 +81,10 @@ class TraceWriter:
         self._file.close()
 
     def _write(self, line: str) -> None:
-        self._file.write(line.encode() + b"\n")
-        self._file.flush()
+        left = line.encode() + b"\n"
+        try:
+            while left:
+                left = left[self._file.write(left) :]
+        except OSError as error:
+            # Unlike opening, writing does not name the file.
+            raise OSError(error.errno, error.strerror, str(self._file.name)) from error

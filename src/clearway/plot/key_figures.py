@@ -42,7 +42,7 @@ def key_figures(metrics: TraceMetrics, violations: int | None) -> list[tuple[str
         (
             "Distance",
             f"{metrics.distance:,.0f} m".replace(",", "\u2009"),
-            f"{_percent(metrics.empty_share)} of it empty" if metrics.pickups else "driven",
+            f"{_percent(metrics.empty_share)} of it empty" if metrics.pickups else "",
         ),
         (
             "Energy",

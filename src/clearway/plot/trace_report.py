@@ -16,6 +16,8 @@ _RUN = ("draw_run.js", "why.js", "timeline.js", "charts.js", "orders.js", "run_p
 _BADGES = {
     "done": "All orders done",
     "ended": "Time is up",
+    "stuck": "Stuck",
+    "stopped": "Budget spent",
     "interrupted": "Interrupted",
     "cut": "Cut short",
 }
@@ -74,6 +76,10 @@ def _what_ended_it(happened: Chronicle, status: str) -> tuple[str, list[str]] | 
         return headline, [f"What is shown happened until {happened.duration:.1f} s."]
     if status == "interrupted":
         return "The run was interrupted", [f"It came to {happened.duration:.1f} s."]
+    if status == "stuck":
+        return "The run got stuck", [f"Nothing happens any more after {happened.duration:.1f} s."]
+    if status == "stopped":
+        return "The budget was spent", [f"The run came to {happened.duration:.1f} s."]
     failed = _orders_in(happened, ("failed",))
     if not failed:
         return None

@@ -100,6 +100,12 @@ def _unsupported(scenario: Scenario) -> tuple[str, ...]:
     if len({robot.type for robot in scenario.robots}) > 1:
         reasons.append("robots: all must be of one type")
     reasons += [
+        f"robot type {name}: has limits on acceleration; system B drives in steps of one speed: "
+        "remove them"
+        for name in sorted({robot.type for robot in scenario.robots})
+        if scenario.robot_types[name].limits.has_ramps
+    ]
+    reasons += [
         f"task {order.task.id}: has visits of its own; system B fetches shelves (fetches = 'g1')"
         for order in scenario.orders
         if order.task.fetches is None

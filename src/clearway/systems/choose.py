@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping
+from difflib import get_close_matches
 from typing import Any
 
 from pydantic import TypeAdapter, ValidationError
@@ -63,7 +64,10 @@ def settings_of(scenario: Scenario) -> Any:
     known = list(settings_type.__dataclass_fields__)
     for key, value in scenario.settings.items():
         if key not in known:
-            raise SettingsError(f"system.{key}", value, f"unknown; known: {', '.join(known)}")
+            meant = get_close_matches(key, known, n=1)
+            guess = f"did you mean {meant[0]!r}? " if meant else ""
+            mend = f"{scenario.system} has no such setting; {guess}known: {', '.join(known)}"
+            raise SettingsError(f"system.{key}", value, mend)
     try:
         given = json.dumps(dict(scenario.settings))
         return TypeAdapter(settings_type).validate_json(given, strict=True)

@@ -5,6 +5,7 @@ from dataclasses import asdict
 from clearway.assign import Charging, NearestOrder, OldestOrder
 from clearway.coordinate import Lifelong
 from clearway.execute import BodyConflicts, RightOfWay
+from clearway.execute.body_conflicts import LEAST_CLEARANCE
 from clearway.model import Problem, Scenario
 from clearway.plan import TailTrips
 from clearway.plan.prioritised import unplannable
@@ -46,4 +47,11 @@ def _unsupported(scenario: Scenario) -> tuple[str, ...]:
     if fetching:
         what = f"{fetching[0]}: fetches a shelf; system A carries none, give it visits instead"
         reasons = (*reasons, what)
+    if scenario.simulation.disturbances:
+        reasons += tuple(
+            f"robot type {name}: a clearance of {scenario.robot_types[name].clearance:g} m is too "
+            f"little to go on under delay; give it {LEAST_CLEARANCE:g} m or more"
+            for name in sorted({robot.type for robot in scenario.robots})
+            if scenario.robot_types[name].clearance < LEAST_CLEARANCE
+        )
     return reasons

@@ -15,6 +15,7 @@ from clearway.simulate.motion import RobotMotion
 from clearway.simulate.on_time import OnTime
 from clearway.systems.choose import choose_lifelong
 from clearway.systems.solve import IllegalScenario
+from clearway.validate.finding import Finding
 from clearway.validate.legality import check_scenario
 
 Clock = Callable[[], float]
@@ -50,6 +51,7 @@ def simulate(
     budget: Budget | None = None,
     record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
+    warn: Callable[[Finding], None] = lambda finding: None,
     clock: Clock | None = None,
 ) -> Simulated:
     """Run a scenario through time.
@@ -67,6 +69,9 @@ def simulate(
         happens.
     tell
         Called with the second, orders done and orders open.
+    warn
+        Called before anything happens with each finding that lets the scenario run, but makes its
+        result doubtful.
     clock
         Source of CPU seconds for decisions and the budget; absent: none are told.
 
@@ -80,9 +85,28 @@ def simulate(
     legality = check_scenario(scenario)
     if not legality:
         raise IllegalScenario(legality.errors)
+
+    def begin(header: Trace) -> Record:
+        for finding in legality.findings:
+            warn(finding)
+        return record(header)
+
     return run_through_time(
-        scenario, system, seed=seed, budget=budget, record=record, tell=tell, clock=clock
+        scenario, system, seed=seed, budget=budget, record=begin, tell=tell, clock=clock
     )
+
+
+def unsupported(scenario: Scenario, system: Lifelong) -> tuple[str, ...]:
+    """Return what in a scenario cannot be run through time with a system, for people to mend."""
+    reasons = system.unsupported(scenario)
+    if scenario.simulation.disturbances:
+        reasons += tuple(
+            f"robot type {name}: has limits on acceleration, which robots that stop at random do "
+            "not keep; remove them, or disturbances"
+            for name in sorted({robot.type for robot in scenario.robots})
+            if scenario.robot_types[name].limits.has_ramps
+        )
+    return reasons
 
 
 def run_through_time(
@@ -97,27 +121,27 @@ def run_through_time(
 ) -> Simulated:
     """Run a scenario that is known to be legal; see `simulate`."""
     chosen = system or choose_lifelong(scenario)
-    reasons = chosen.unsupported(scenario)
+    reasons = unsupported(scenario, chosen)
     if reasons:
         raise Unsupported("; ".join(reasons))
     seed = scenario.seed if seed is None else seed
     header = _header(scenario, chosen, seed)
+    trips = chosen.trips(scenario)
+    motion = _motion(scenario, chosen, seed)
+    # Robots that may be late have been granted what they do within a period.
+    lead = PERIOD if scenario.simulation.disturbances else 0
+    coordinator = Coordinator(
+        scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
+    )
     told: list[Event] = []
+    # Only now, as any part may refuse the scenario, and what an earlier run wrote is to stay then.
     write = record(header)
 
     def keep(event: Event) -> None:
         told.append(event)
         write(event)
 
-    trips = chosen.trips(scenario)
-    fleet = SimulatedFleet(
-        scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
-    )
-    # Robots that may be late have been granted what they do within a period.
-    lead = PERIOD if scenario.simulation.disturbances else 0
-    coordinator = Coordinator(
-        scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
-    )
+    fleet = SimulatedFleet(scenario, motion, Arrivals(scenario, seed), keep, tell)
     is_spent = _is_spent(budget or Budget(), clock, trips)
     status = None
     try:
@@ -137,10 +161,6 @@ def _motion(scenario: Scenario, system: Lifelong, seed: int) -> RobotMotion:
     disturbances = scenario.simulation.disturbances
     if not disturbances:
         return OnTime(scenario.robots)
-    for robot in scenario.robots:
-        if scenario.type_of(robot).limits.has_ramps:
-            what = f"robot type {robot.type}: has limits on acceleration"
-            raise Unsupported(f"{what}, which robots that stop at random do not keep; remove them")
     return Disturbed(scenario.robots, disturbances, system.execute(scenario), seed)
 
 

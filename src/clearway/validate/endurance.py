@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 from clearway.model import Scenario, Simulation
 from clearway.validate.finding import Finding, Severity
+from clearway.validate.floors import OVERLAP
 from clearway.validate.reachability import Ways
+from clearway.world.shapes import Shape, body_shape, obstacle_shape
 
 SHOWN = 5
 
@@ -17,13 +19,26 @@ def check_endurance(scenario: Scenario) -> Iterator[Finding]:
     Nothing, where nothing of it happens in time: neither streams, an end and so on, nor shelves
     that are fetched.
     """
-    if scenario.simulation == Simulation() and not _fetches(scenario):
+    if not runs_through_time(scenario):
         return
+    yield from _check_work(scenario)
     yield from _check_rest(scenario)
     yield from _check_energy(scenario)
     yield from _check_places(scenario)
     yield from _check_ways(scenario)
     yield from _check_times(scenario)
+    yield from _check_surprises(scenario)
+
+
+def runs_through_time(scenario: Scenario) -> bool:
+    """Whether anything of a scenario happens in time, or shelves are fetched."""
+    return scenario.simulation != Simulation() or _fetches(scenario)
+
+
+def _check_work(scenario: Scenario) -> Iterator[Finding]:
+    if not scenario.orders and not scenario.simulation.streams:
+        text = "there are no orders, so nothing happens; name a file in orders, or add a stream"
+        yield Finding("no_work", "warning", "orders", text)
 
 
 def _fetches(scenario: Scenario) -> bool:
@@ -33,7 +48,7 @@ def _fetches(scenario: Scenario) -> bool:
 
 def _check_rest(scenario: Scenario) -> Iterator[Finding]:
     """Each robot needs a place of its own to rest in, or others must wait for it for ever."""
-    kinds = ("parking", "shelf") if _fetches(scenario) else ("parking",)
+    kinds = ("parking", "shelf") if _fetches(scenario) or scenario.site.layout else ("parking",)
     zones = [zone for kind in kinds for zone in scenario.site.zones_of(kind)]
     places = sum(zone.pose is not None for zone in zones)
     robots = len(scenario.robots)
@@ -143,3 +158,43 @@ def _check_times(scenario: Scenario) -> Iterator[Finding]:
         if surprise.at >= simulation.until:
             text = "the obstacle appears after the run ends; raise until or lower at"
             yield Finding("too_late", "warning", f"simulation.surprises[{i}].at", text)
+
+
+def _check_surprises(scenario: Scenario) -> Iterator[Finding]:
+    """Where an obstacle comes to light, nobody can stand any more."""
+    kinds = [scenario.robot_types[name] for name in sorted({r.type for r in scenario.robots})]
+    until = scenario.simulation.until or math.inf
+    for i, surprise in enumerate(scenario.simulation.surprises):
+        if surprise.at >= until:
+            continue
+        obstacle = obstacle_shape(surprise.obstacle)
+        covered = [
+            zone.name
+            for zone in scenario.site.zones
+            if zone.pose is not None
+            and all(_is_under(body_shape(k.footprint, zone.pose), obstacle) for k in kinds)
+        ]
+        key = f"simulation.surprises[{i}]"
+        if covered:
+            names = ", ".join(covered[:SHOWN]) + (", ..." if len(covered) > SHOWN else "")
+            text = (
+                f"the obstacle covers {names} from {surprise.at:g} s on, so nobody can go there "
+                "any more; move it, unless that is meant"
+            )
+            yield Finding("covered", "warning", key, text)
+        standing = [
+            robot.id
+            for robot in scenario.robots
+            if surprise.at == 0.0
+            and _is_under(body_shape(scenario.type_of(robot).footprint, robot.start), obstacle)
+        ]
+        if standing:
+            text = (
+                f"the obstacle is there from the start, where {', '.join(standing[:SHOWN])} "
+                "stands; move one of them, or list the obstacle in site.obstacles"
+            )
+            yield Finding("start_in_obstacle", "error", key, text, tuple(standing))
+
+
+def _is_under(body: Shape, obstacle: Shape) -> bool:
+    return body.overlap(obstacle) > OVERLAP

@@ -16,7 +16,7 @@ class Finding:
         ``start_in_obstacle``, ``start_outside``, ``starts_overlap``, ``visit_in_obstacle``,
         ``visit_outside``, ``zone_in_obstacle``, ``zone_outside``, ``no_room``,
         ``rests_overlap``, ``no_robot``, ``unreachable``, ``few_bays``, ``few_chargers``,
-        ``start_off_place`` or ``too_late``.
+        ``start_off_place``, ``too_late``, ``no_work``, ``covered`` or ``unsupported``.
     key
         Key path in the scenario file.
     robots
