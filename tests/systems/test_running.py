@@ -4,12 +4,25 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
+from tests.systems.sites import CARRIER, hall
 
 from clearway.assign import LookAhead, NearestIdle
 from clearway.coordinate import Lifelong
 from clearway.execute import CellConflicts, RightOfWay
 from clearway.formats.trace_file import dump_trace, without_timings
-from clearway.model import Disturbances, Layout, Scenario, Simulation
+from clearway.model import (
+    Disturbances,
+    Layout,
+    Order,
+    Pose,
+    Robot,
+    Scenario,
+    Simulation,
+    Site,
+    Task,
+    Visit,
+    Zone,
+)
 from clearway.plan import LaneTrips, TailTrips
 from clearway.protocols import TripPlanner
 from clearway.systems.simulate import Simulated, run_through_time
@@ -158,3 +171,27 @@ def test_time_is_up_with_orders_open() -> None:
     assert (run.status, end["t"]) == ("ended", 60.0)
     assert end["orders_open"] == 20 - end["orders_done"] > 0
     assert judged(run) == []
+
+
+@pytest.mark.parametrize("stops", [None, 0.0, 120.0], ids=["on time", "slow", "stopping"])
+def test_robots_that_start_in_no_bay_drive_to_one_at_once(stops: float | None) -> None:
+    """Robot b stands in a's way; the planner counts on it being led to its bay."""
+    bays = tuple(Zone(f"p{y}", "parking", square(3.0, y), Pose(3.0, y, 0.0)) for y in (3.0, 9.0))
+    scenario = hall(
+        site=Site(((0, 0), (20, 0), (20, 12), (0, 12)), zones=bays),
+        robot_types={"carrier": replace(CARRIER, clearance=0.1)},
+        robots=(
+            Robot("a", "carrier", Pose(3.0, 3.0, 0.0)),
+            Robot("b", "carrier", Pose(10.0, 9.0, 0.0)),
+        ),
+        orders=(Order(Task("t1", (Visit("t1", Pose(16.0, 9.0, 0.0), 1.0),), "a")),),
+    )
+    run = run_through_time(scenario if stops is None else late(scenario, stops))
+    assert run.status == "done"
+    ends = {e["robot"]: (e["x"][-1], e["y"][-1]) for e in run.trace.of("motion")}
+    assert ends["b"] == pytest.approx((3.0, 9.0), abs=1e-5)
+    assert judged(run) == []
+
+
+def square(x: float, y: float) -> tuple[tuple[float, float], ...]:
+    return ((x - 2, y - 2), (x + 2, y - 2), (x + 2, y + 2), (x - 2, y + 2))
