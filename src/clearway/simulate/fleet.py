@@ -155,9 +155,12 @@ class SimulatedFleet:
                 is_up = self._until is not None and self._now >= self._until
                 status = "ended" if is_up else "stuck"
         if status == "done":
-            # The last ones still drive to their rest.
+            # The last ones still drive to their rest; late ones come there later than planned.
             self._now = max(self._now, *self._rest_at.values())
             self._advance()
+            while (tick := self._motion.next_tick()) is not None:
+                self._now = max(self._now, tick)
+                self._advance()
         for robot in self._trips:
             self._flush(robot)
             if self._trips[robot] is not None:
