@@ -9,7 +9,7 @@ from clearway.formats.trace_dump import SAMPLES
 from clearway.model import Zone
 
 ORDER_STATES = ("released", "assigned", "started", "done", "failed", "cancelled")
-END_STATES = ("done", "ended", "stuck", "interrupted")
+END_STATES = ("done", "ended", "stuck", "stopped", "interrupted")
 
 
 def event_of(node: Node, robots: set[str]) -> dict[str, Any]:

@@ -16,8 +16,15 @@ _RUN = ("draw_run.js", "why.js", "timeline.js", "charts.js", "orders.js", "run_p
 _BADGES = {
     "done": "All orders done",
     "ended": "Time is up",
+    "stuck": "Stuck",
+    "stopped": "Stopped: budget spent",
     "interrupted": "Interrupted",
     "cut": "Cut short",
+}
+_HEADLINES = {
+    "stuck": "The run is stuck: orders are open, but nothing happens any more",
+    "stopped": "The run was stopped, as its budget was spent",
+    "interrupted": "The run was interrupted",
 }
 
 
@@ -72,8 +79,8 @@ def _what_ended_it(happened: Chronicle, status: str) -> tuple[str, list[str]] | 
     if status == "cut":
         headline = "The trace ends in the middle of the run"
         return headline, [f"What is shown happened until {happened.duration:.1f} s."]
-    if status == "interrupted":
-        return "The run was interrupted", [f"It came to {happened.duration:.1f} s."]
+    if status in _HEADLINES:
+        return _HEADLINES[status], [f"It came to {happened.duration:.1f} s."]
     failed = _orders_in(happened, ("failed",))
     if not failed:
         return None
