@@ -7,7 +7,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG
+from clearway.cli.interrupts import Interrupts
+from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG, interrupted
 from clearway.cli.progress import ProgressLine
 from clearway.formats.atomic import write_text
 from clearway.formats.plan_file import write_plan
@@ -33,32 +34,47 @@ def run_simulate(arguments: argparse.Namespace) -> int:
     scenario = read_scenario(source)
     out.mkdir(parents=True, exist_ok=True)
     trace_file = out / "trace.jsonl"
-    with ProgressLine(quiet=arguments.quiet) as line, ExitStack() as stack:
+    has_begun = False
+    with ProgressLine(quiet=arguments.quiet) as line, Interrupts() as ctrl_c, ExitStack() as stack:
+        tell_line = line.running(scenario.simulation.until)
+
+        def tell(second: float, done: int, left: int) -> None:
+            ctrl_c.check()
+            tell_line(second, done, left)
 
         def record(header: Trace) -> Record:
             # What an earlier run left here would belie this one.
             for name in ("plan.json", "metrics.json", "report.html", "plan.png"):
                 (out / name).unlink(missing_ok=True)
             copy_scenario(source, out / "scenario.toml")
+            nonlocal has_begun
+            has_begun = True
             return stack.enter_context(TraceWriter(trace_file, header))
 
-        run = simulate(
-            scenario,
-            seed=arguments.seed,
-            budget=Budget(arguments.budget, arguments.expansions),
-            record=record,
-            tell=line.running(scenario.simulation.until),
-            clock=time.process_time,
-        )
-        stack.close()
-        if run.status == "interrupted":
-            return _told_interrupted(arguments, run, trace_file)
-        line.say("judging")
-        # What is judged is what was written.
-        trace = read_trace(trace_file)
-        violations = validate_trace(trace)
-        line.say("writing the run folder")
-        files = _write(trace, violations, out)
+        try:
+            run = simulate(
+                scenario,
+                seed=arguments.seed,
+                budget=Budget(arguments.budget, arguments.expansions),
+                record=record,
+                tell=tell,
+                clock=time.process_time,
+                hold=ctrl_c.held,
+            )
+            stack.close()
+            if run.status == "interrupted":
+                return _told_interrupted(arguments, run, trace_file)
+            line.say("judging")
+            # What is judged is what was written.
+            trace = read_trace(trace_file)
+            violations = validate_trace(trace)
+            line.say("writing the run folder")
+            files = _write(trace, violations, out)
+        except KeyboardInterrupt:
+            if not has_begun:
+                raise
+            kept = f"the trace is in {trace_file}; clearway validate {trace_file} judges it"
+            return interrupted(arguments, kept)
     code = WRONG if violations else CODES.get(run.status, NO_ANSWER)
     _tell(arguments, scenario, run, trace, violations, files)
     return code
@@ -110,8 +126,6 @@ def _tell(
 
 
 def _told_interrupted(arguments: argparse.Namespace, run: Simulated, file: Path) -> int:
-    from clearway.cli.main import interrupted
-
     end = run.trace.events[-1]
     kept = (
         f"the trace up to {end['t']:.1f} s is in {file}, marked interrupted "

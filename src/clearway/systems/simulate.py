@@ -1,6 +1,7 @@
 """From a scenario to what happens in it: orders that arrive, until they are done."""
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 
@@ -19,6 +20,7 @@ from clearway.validate.legality import check_scenario
 
 Clock = Callable[[], float]
 Recorder = Callable[[Trace], Record]
+Hold = Callable[[], AbstractContextManager[None]]
 
 
 def _nowhere(header: Trace) -> Record:
@@ -51,6 +53,7 @@ def simulate(
     record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
     clock: Clock | None = None,
+    hold: Hold = nullcontext,
 ) -> Simulated:
     """Run a scenario through time.
 
@@ -63,12 +66,14 @@ def simulate(
     budget
         Seconds of ``clock``, or expansions of the planner, after which it stops.
     record
-        Called with the trace's header, events empty; returns what takes each event as it
-        happens.
+        Called with the trace's header, events empty, once all parts are made; returns what takes
+        each event as it happens.
     tell
-        Called with the second, orders done and orders open.
+        Called with the second, orders done and orders open; it may raise `KeyboardInterrupt`.
     clock
         Source of CPU seconds for decisions and the budget; absent: none are told.
+    hold
+        Makes the context within which events are written and `KeyboardInterrupt` should wait.
 
     Raises
     ------
@@ -81,7 +86,14 @@ def simulate(
     if not legality:
         raise IllegalScenario(legality.errors)
     return run_through_time(
-        scenario, system, seed=seed, budget=budget, record=record, tell=tell, clock=clock
+        scenario,
+        system,
+        seed=seed,
+        budget=budget,
+        record=record,
+        tell=tell,
+        clock=clock,
+        hold=hold,
     )
 
 
@@ -94,6 +106,7 @@ def run_through_time(
     record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
     clock: Clock | None = None,
+    hold: Hold = nullcontext,
 ) -> Simulated:
     """Run a scenario that is known to be legal; see `simulate`."""
     chosen = system or choose_lifelong(scenario)
@@ -101,6 +114,14 @@ def run_through_time(
     if reasons:
         raise Unsupported("; ".join(reasons))
     seed = scenario.seed if seed is None else seed
+    motion, arrivals = _motion(scenario, chosen, seed), Arrivals(scenario, seed)
+    trips = chosen.trips(scenario)
+    # Robots that may be late have been granted what they do within a period.
+    lead = PERIOD if scenario.simulation.disturbances else 0
+    coordinator = Coordinator(
+        scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
+    )
+    is_spent = _is_spent(budget or Budget(), clock, trips)
     header = _header(scenario, chosen, seed)
     told: list[Event] = []
     write = record(header)
@@ -109,26 +130,24 @@ def run_through_time(
         told.append(event)
         write(event)
 
-    trips = chosen.trips(scenario)
-    fleet = SimulatedFleet(
-        scenario, _motion(scenario, chosen, seed), Arrivals(scenario, seed), keep, tell
-    )
-    # Robots that may be late have been granted what they do within a period.
-    lead = PERIOD if scenario.simulation.disturbances else 0
-    coordinator = Coordinator(
-        scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
-    )
-    is_spent = _is_spent(budget or Budget(), clock, trips)
+    fleet = SimulatedFleet(scenario, motion, arrivals, keep, tell)
     status = None
     try:
-        while (seen := fleet.observe()) is not None:
-            fleet.execute(coordinator.decide(seen))
+        while True:
+            with hold():
+                seen = fleet.observe()
+            if seen is None:
+                break
+            decision = coordinator.decide(seen)
+            with hold():
+                fleet.execute(decision)
             if is_spent():
                 status = "stopped"
                 break
     except KeyboardInterrupt:
         status = "interrupted"
-    status = fleet.close(status)
+    with hold():
+        status = fleet.close(status)
     trace = replace(header, events=tuple(told), is_whole=True)
     return Simulated(trace, status, dict(trips.counters))
 
@@ -159,7 +178,7 @@ def _is_spent(budget: Budget, clock: Clock | None, trips: TripPlanner) -> Callab
 def _header(scenario: Scenario, system: Lifelong, seed: int) -> Trace:
     return Trace(
         scenario=scenario.name,
-        system=scenario.system,
+        system=system.name,
         seed=seed,
         site=scenario.site,
         robot_types=dict(scenario.robot_types),
