@@ -282,3 +282,10 @@ def test_an_idle_robot_that_makes_way_is_seen_where_it_goes() -> None:
     planner.barred = ("b",)
     coordinator.decide(Observation(1000, found=(WALL,)))
     assert (wants.board.robots["b"].place, wants.board.robots["b"].pose.y) == ("bay", 2.0)
+
+
+def test_what_a_trip_leaves_on_board_is_seen() -> None:
+    coordinator, wants = loop(ByHand())
+    coordinator.decide(Observation(0, (order("o", "a", load="pick"),)))
+    coordinator.decide(Observation(12000, served=("a",)))
+    assert wants.board.robots["a"].carries == ("o",)

@@ -207,7 +207,7 @@ class Coordinator:
                 trip=None,
                 pose=trip.visits[-1].pose,
                 place=trip.goals[-1] if not trip.rests else commitment.rest,
-                carries=trip.carries,
+                carries=trip.carries or _on_board(board.robots[robot].carries, trip.visits),
                 ready=seen.now,
                 idle_since=seen.now,
             )

@@ -237,7 +237,7 @@ class SimulatedFleet:
     def _load(self, tick: int, trip: Trip, visit: Visit, last: bool) -> None:
         robot = trip.robot
         on_board = self._objects[robot]
-        if last:
+        if last and trip.carries:
             on_board = trip.carries
         elif visit.load == "pick":
             on_board = (*on_board, visit.task or "load")
