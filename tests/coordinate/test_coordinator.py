@@ -289,3 +289,25 @@ def test_what_a_trip_leaves_on_board_is_seen() -> None:
     coordinator.decide(Observation(0, (order("o", "a", load="pick"),)))
     coordinator.decide(Observation(12000, served=("a",)))
     assert wants.board.robots["a"].carries == ("o",)
+
+
+def test_an_order_fails_once_and_is_not_done_afterwards() -> None:
+    """A robot that still has its shelf tries again to bring it back, and does in the end."""
+    planner = ByHand()
+
+    def brings_back(board: Board) -> Iterator[Choice]:
+        if board.robots["a"].is_idle:
+            last = board.now > 0
+            trip = Trip("a", order("o").visits, "store" if last else "fetch", "o")
+            yield Choice(trip, "order", "o", 0.0, completes=last)
+
+    coordinator = Coordinator(ROBOTS, brings_back, planner)
+    coordinator.decide(Observation(0, (order("o"),)))
+    planner.refusals = [Refusal("walled in", for_good=True)] * 2
+    first = coordinator.decide(Observation(12000, served=("a",)))
+    second = coordinator.decide(Observation(12001))
+    assert (list(first.failed), list(second.failed)) == (["o"], [])
+    assert second.wake == 13001, "the robot is not asked for the impossible at each event"
+    assert coordinator.decide(Observation(13001)).commitments.keys() == {"a"}
+    last = coordinator.decide(Observation(25001, served=("a",)))
+    assert (last.done, dict(last.failed)) == ((), {})

@@ -127,8 +127,9 @@ class Coordinator:
         return min(ahead, default=None)
 
     def _fail(self, order: str, reason: str, failed: dict[str, str]) -> None:
-        """Give an order up for good."""
-        failed[order] = reason
+        """Give an order up for good, once, whatever becomes of the robot that has it."""
+        if order in self._board.open:
+            failed[order] = reason
         for known in (self._board.open, self._board.taken, self._board.refusals):
             known.pop(order, None)
 
@@ -178,7 +179,7 @@ class Coordinator:
         outcome = self._trips.plan(trip, board.now, effort, self._params.lead)
         spent = self._cpu() - begin
         if isinstance(outcome, Refusal):
-            if outcome.for_good and trip.order is not None:
+            if outcome.for_good and trip.order in board.open:
                 # It is the order that is hopeless, not the robot.
                 return Told(choice, outcome, spent)
             pause = min(self._params.retry * 2**times, self._params.most_retry)
@@ -189,7 +190,7 @@ class Coordinator:
         self._refused.pop(trip.robot, None)
         self._completes[trip.robot] = choice.completes
         self._see(trip.robot, trip=trip, ready=outcome.served)
-        if trip.order is not None:
+        if trip.order in board.open:
             board.taken[trip.order] = trip.robot
             board.refusals.pop(trip.order, None)
         return Told(choice, outcome, spent)
@@ -211,7 +212,7 @@ class Coordinator:
                 ready=seen.now,
                 idle_since=seen.now,
             )
-            if trip.order is not None and self._completes[robot]:
+            if trip.order in board.open and self._completes[robot]:
                 done.append(trip.order)
                 board.open.pop(trip.order, None)
                 board.taken.pop(trip.order, None)

@@ -216,7 +216,9 @@ class SimulatedFleet:
         robot, trip = one.robot, self._trips[one.robot]
         assert trip is not None
         self._flush(robot)
-        self._record(events.visit(one.tick, robot, trip, one.visit, one.kind))
+        # A robot may have to bring back what it fetched for an order that has failed.
+        serves = trip.order if trip.order in self._open else None
+        self._record(events.visit(one.tick, robot, trip, one.visit, one.kind, serves))
         if one.kind == "arrived":
             self._arrived[robot] = one.tick
             if trip.order is not None and trip.order in self._assigned:
