@@ -147,7 +147,8 @@ class CellConflicts:
 def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
     """Return the cells that a robot holds, in order, the last one for ever.
 
-    The first piece may be what is left of a move that began before.
+    The first piece may be what is left of a move that began before; the last one may end between
+    two cells, which are then both held for ever.
 
     Raises
     ------
@@ -160,12 +161,14 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
         cells = piece.length / grid.cell
         if cells < NEAR:
             continue
-        step, goal = _step(piece.start, piece.end), grid.cell_at(piece.end)
-        count = math.ceil(cells - NEAR)
+        step = _step(piece.start, piece.end)
+        ahead, at = _to_middle(grid, piece.end, step)
+        goal = grid.cell_at(at)
+        count = math.ceil(cells + ahead - NEAR)
         origin = (goal[0] - count * step[0], goal[1] - count * step[1])
         if not moves:
             first = here = origin
-        middle = piece.end.distance(grid.centre(goal))
+        middle = at.distance(grid.centre(goal))
         if step == (0, 0) or middle > NEAR or origin != here:
             raise ValueError(
                 f"robot {trajectory.robot}, piece {piece.id}: does not lead along a row or column "
@@ -173,9 +176,17 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
             )
         each = (end - begin) / cells
         for k in range(count, 0, -1):
-            go, there = math.floor(end - each * k + NEAR), math.ceil(end - each * (k - 1) - NEAR)
-            moves.append((go, there, step))
+            go = math.floor(end + each * (ahead - k) + NEAR)
+            there = math.ceil(end + each * (ahead - k + 1) - NEAR)
+            moves.append((go, there if there <= end else NEVER, step))
         here = goal
+    if not moves:
+        step = round(math.cos(trajectory.start.theta)), round(math.sin(trajectory.start.theta))
+        ahead, at = _to_middle(grid, trajectory.start, step)
+        if ahead > NEAR:  # it stands between two cells for ever
+            goal = grid.cell_at(at)
+            first = here = (goal[0] - step[0], goal[1] - step[1])
+            moves.append((0, NEVER, step))
     holds = []
     here, enter, there, came = first, 0, 0, None
     for begin, end, step in moves:
@@ -189,6 +200,14 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
 def _follows(mine: CellHold, its: CellHold) -> bool:
     """Whether one comes into a cell the way that the other leaves it."""
     return mine.came is not None and mine.came == its.goes
+
+
+def _to_middle(grid: LaneGrid, pose: Pose, step: Cell) -> tuple[float, Pose]:
+    """Return how far (cells) the next middle of a cell is from a pose along a step, and where."""
+    along = (step[0] * pose.x + step[1] * pose.y) / grid.cell - 0.5 * sum(step)
+    ahead = max(0.0, math.ceil(along - NEAR) - along)
+    by = ahead * grid.cell
+    return ahead, Pose(pose.x + by * step[0], pose.y + by * step[1], pose.theta)
 
 
 def _step(start: Pose, end: Pose) -> Cell:
