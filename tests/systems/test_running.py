@@ -13,12 +13,14 @@ from clearway.formats.trace_file import dump_trace, without_timings
 from clearway.model import (
     Disturbances,
     Layout,
+    Obstacle,
     Order,
     Pose,
     Robot,
     Scenario,
     Simulation,
     Site,
+    Surprise,
     Task,
     Visit,
     Zone,
@@ -195,3 +197,30 @@ def test_robots_that_start_in_no_bay_drive_to_one_at_once(stops: float | None) -
 
 def square(x: float, y: float) -> tuple[tuple[float, float], ...]:
     return ((x - 2, y - 2), (x + 2, y - 2), (x + 2, y + 2), (x - 2, y + 2))
+
+
+def test_a_service_goes_on_though_its_trip_is_given_up() -> None:
+    """A wall closes the way to the second visit of 8 s into the first; the robot turns home then.
+
+    Its order is given back and fails, as it leads nowhere; what the robot does next waits until
+    the first visit is over.
+    """
+    bay = Zone("p", "parking", square(3.0, 6.0), Pose(3.0, 6.0, 0.0))
+    visits = Visit("far", Pose(10.0, 6.0, 0.0), 20.0), Visit("far", Pose(25.0, 6.0, 0.0), 1.0)
+    near = Order(Task("near", (Visit("near", Pose(6.0, 6.0, 0.0), 1.0),)))
+    scenario = hall(
+        site=Site(((0, 0), (30, 0), (30, 12), (0, 12)), zones=(bay,)),
+        robots=(Robot("a", "carrier", Pose(3.0, 6.0, 0.0)),),
+        orders=(Order(Task("far", visits)), near),
+        simulation=Simulation(
+            until=200.0, surprises=(Surprise(12.0, Obstacle(wall=((18.0, 0.0), (18.0, 12.0)))),)
+        ),
+    )
+    run = run_through_time(scenario)
+    assert judged(run) == []
+    stays = [(e["state"], e["t"]) for e in run.trace.of("visit") if e["task"] == "far"]
+    assert [state for state, _ in stays] == ["arrived", "left"]
+    assert stays[1][1] - stays[0][1] == pytest.approx(20.0)
+    states = [e["state"] for e in run.trace.of("order") if e["order"] == "far"]
+    assert states[:4] == ["released", "assigned", "started", "released"]
+    assert run.trace.events[-1]["orders_done"] == 1

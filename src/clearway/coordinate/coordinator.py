@@ -112,7 +112,8 @@ class Coordinator:
             elif outcome.outcome.for_good and choice.trip.order is not None:
                 self._fail(choice.trip.order, outcome.outcome.reason, failed)
         board.ended = board.arrived = ()
-        wake = self._next_try(seen.now)
+        # Who was to do an order that has failed may do another one.
+        wake = seen.now + 1 if failed else self._next_try(seen.now)
         return Decision(
             changed, tuple(told), tuple(done), failed, tuple(diverted), tuple(given_back), wake
         )
@@ -150,7 +151,8 @@ class Coordinator:
                 if trip is None:
                     continue
                 stops = before[robot].trajectory.stops
-                served = [trip.visits[stop.visit] for stop in stops if stop.leave <= seen.now]
+                # A service that has begun is gone through with.
+                served = [trip.visits[stop.visit] for stop in stops if stop.arrive <= seen.now]
                 self._see(
                     robot,
                     trip=None,
