@@ -1,5 +1,6 @@
 """Scenarios run through time: every order done, no body touches another, the same each time."""
 
+import random
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -224,3 +225,28 @@ def test_a_service_goes_on_though_its_trip_is_given_up() -> None:
     states = [e["state"] for e in run.trace.of("order") if e["order"] == "far"]
     assert states[:4] == ["released", "assigned", "started", "released"]
     assert run.trace.events[-1]["orders_done"] == 1
+
+
+@pytest.mark.parametrize(
+    ("seed", "robots", "orders", "dispatch", "stops"),
+    [(3, 4, 16, "nearest", 0.0), (5, 6, 20, "ahead", 0.0), (8, 6, 20, "nearest", 60.0)],
+)
+def test_obstacles_on_lanes_leave_a_right_trace(
+    seed: int, robots: int, orders: int, dispatch: str, stops: float
+) -> None:
+    """Discs fall into the lanes; orders may fail, but nothing is hit and nobody breaks down."""
+    scenario = shelf_batch(
+        SMALL["bidirectional"], robots, orders, seed, settings={"dispatch": dispatch}
+    )
+    rng = random.Random(seed)
+    found = tuple(
+        Surprise(at, Obstacle(disc=(rng.uniform(1.0, 17.0), rng.uniform(1.0, 9.0), 0.4)))
+        for at in (20.3, 40.7, 60.1)
+    )
+    simulation = Simulation(
+        until=600.0, surprises=found, disturbances=Disturbances(stops_per_hour=stops)
+    )
+    run = run_through_time(replace(scenario, simulation=simulation))
+    assert run.status in ("done", "ended")
+    assert any(e["kind"] == "obstacle" for e in run.trace.of("fault"))
+    assert judged(run) == []

@@ -108,7 +108,8 @@ class LaneTrips:
         me = self._number[trip.robot]
         old = self._committed[trip.robot]
         start, goal = old.trajectory.final_pose, trip.visits[0].pose
-        ready = max(now + lead, old.served)
+        # A robot that gave its trip up may still be on its way to rest.
+        ready = max(now + lead, old.served, old.trajectory.end)
         way = self._by_rules(me, start, goal, ready, now)
         if way is None:
             granted, limit = now + self._notice, LIMIT * effort

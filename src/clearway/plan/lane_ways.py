@@ -90,7 +90,8 @@ class LaneWays:
             limit,
         )
         self.expansions += way.expansions
-        if not way.found:
+        # Who stands between two cells comes to the next one at the end of time: no way past it.
+        if not way.found or way.ready >= _core.NEVER // 2:
             return None
         return LaneWay(way.stays, self._waits(way), way.ready)
 

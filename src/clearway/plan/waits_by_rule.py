@@ -119,7 +119,8 @@ class WaitsByRule:
                 break
             mine = self._pause(robot, route.stays, index, clash.other, granted)
         if mine is None or rule.waiter != "one":
-            for index in waiting_nodes(self._grid, two, b):
+            ends = theirs[-1].arrive < _core.NEVER - 1  # else it stands between two cells for ever
+            for index in waiting_nodes(self._grid, two, b) if ends else ():
                 if theirs[index].turn_begin <= granted or yours:
                     break
                 yours = self._pause(clash.other, theirs, index, robot, 0)
@@ -144,7 +145,10 @@ class WaitsByRule:
         self, robot: int, stays: Sequence[_core.CellStay], index: int, other: int, granted: int
     ) -> Pause | None:
         by = self._holds.least_delay(robot, stays, index, other, granted)
-        return Pause(robot, index, stays[index].turn_begin, by, other) if by >= 0 else None
+        # Who stands between two cells never comes to the next one.
+        if not 0 <= by < _core.NEVER // 2:
+            return None
+        return Pause(robot, index, stays[index].turn_begin, by, other)
 
     def _nodes(self, stays: Sequence[_core.CellStay]) -> list[Node]:
         width = self._grid.size[0]
