@@ -49,18 +49,25 @@ def test_turning_on_the_spot_holds_the_cell_only():
 def test_pieces_off_the_grid_are_refused_by_name():
     with pytest.raises(ValueError, match=r"robot east, piece 0: does not lead along a row"):
         holds_of(GRID, at_once("east", (0.5, 2.5), 4.0, 0, 4000, theta=0.3))
-    half = at_once("east", (0.5, 2.5), 3.5, 0, 3500)
-    rest = at_once("east", (4.0, 2.5), 0.5, 3500, 4000)
-    both = replace(half, pieces=half.pieces + rest.pieces, timing=half.timing + rest.timing)
+    halfway = at_once("east", (0.5, 2.5), 3.5, 0, 3500)
+    more = Piece(1, None, halfway.final_pose, (0.5, 0.0, 0.0))
     with pytest.raises(ValueError, match=r"to the middle of another"):
-        holds_of(GRID, both)
+        holds_of(
+            GRID, replace(halfway, pieces=(*halfway.pieces, more), timing=((0, 3500), (5000, 5500)))
+        )
 
 
-def test_who_stops_between_two_cells_holds_both_for_ever():
-    """In front of an obstacle: half of the move from (3, 2) to (4, 2), begun at 3000."""
-    *_, last, ahead = holds_of(GRID, at_once("east", (0.5, 2.5), 3.5, 0, 3500))
-    assert (last.cell, last.go, last.leave) == ((3, 2), 3000, NEVER)
-    assert (ahead.cell, ahead.enter, ahead.there) == ((4, 2), 3000, NEVER)
+@pytest.mark.parametrize("begin", [0.5, 1.25, 1.75, 2.0])
+def test_who_stops_between_two_cells_holds_both_for_ever(begin):
+    """In front of an obstacle, however much of the way there has been driven before."""
+    length = 2.0 - begin
+    path = Trajectory("east", Pose(2.0, 2.5, 0.0))
+    if length:
+        path = at_once("east", (begin, 2.5), length, 1000, 1000 + round(1000 * length))
+    *_, behind, ahead = holds_of(GRID, path)
+    assert (behind.cell, behind.leave) == ((1, 2), NEVER)
+    assert (ahead.cell, ahead.there, ahead.leave) == ((2, 2), NEVER, NEVER)
+    assert ahead.enter == (500 + round(1000 * length) if length else 0)
 
 
 def test_who_crosses_waits_until_the_cell_is_left():

@@ -6,7 +6,7 @@ import pytest
 from tests.plan.lane_traffic import LAYOUTS, Traffic
 
 from clearway import _core
-from clearway.model import Layout, Pose, Stop
+from clearway.model import Layout, Piece, Pose, Stop, Trajectory
 from clearway.plan.lane_motion import paused, split, stays_of, timed, trajectory_of
 from clearway.world.channels import lane_grid
 
@@ -82,3 +82,16 @@ def test_trajectories_tell_the_holds_they_were_made_of(rule, turn_seconds):
         assert turns == [(s.turn_begin, s.turn_end) for s in found if s.turn_end > s.turn_begin]
     assert sum(len(s.trajectory.pieces) for told in traffic.told.values() for s in told) > 200
     assert found[-1].depart == _core.NEVER
+
+
+@pytest.mark.parametrize("begin", [4.5, 5.8, 6.0])
+def test_who_ends_between_two_cells_stays_in_both(begin):
+    """From (4, 8) or on the way, to the border of (5, 8) and (6, 8), or there from the first."""
+    start, length = Pose(begin, 8.5, 0.0), 6.0 - begin
+    path = Trajectory("r", start)
+    if length:
+        path = Trajectory("r", start, (Piece(0, None, start, (length, 0.0, 0.0)),), ((0, 1500),))
+    *_, behind, ahead = stays_of(GRID, path)
+    assert (behind.cell, ahead.cell) == (8 * WIDTH + 5, 8 * WIDTH + 6)
+    assert behind.depart < 1500
+    assert (ahead.arrive, ahead.depart) == (_core.NEVER - 1, _core.NEVER)

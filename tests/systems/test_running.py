@@ -1,15 +1,31 @@
 """Scenarios run through time: every order done, no body touches another, the same each time."""
 
+import random
 from collections.abc import Callable
 from dataclasses import replace
 
 import pytest
+from tests.systems.sites import CARRIER, hall
 
 from clearway.assign import LookAhead, NearestIdle
 from clearway.coordinate import Lifelong
 from clearway.execute import CellConflicts, RightOfWay
 from clearway.formats.trace_file import dump_trace, without_timings
-from clearway.model import Disturbances, Layout, Scenario, Simulation
+from clearway.model import (
+    Disturbances,
+    Layout,
+    Obstacle,
+    Order,
+    Pose,
+    Robot,
+    Scenario,
+    Simulation,
+    Site,
+    Surprise,
+    Task,
+    Visit,
+    Zone,
+)
 from clearway.plan import LaneTrips, TailTrips
 from clearway.protocols import TripPlanner
 from clearway.systems.simulate import Simulated, run_through_time
@@ -157,4 +173,80 @@ def test_time_is_up_with_orders_open() -> None:
     end = run.trace.events[-1]
     assert (run.status, end["t"]) == ("ended", 60.0)
     assert end["orders_open"] == 20 - end["orders_done"] > 0
+    assert judged(run) == []
+
+
+@pytest.mark.parametrize("stops", [None, 0.0, 120.0], ids=["on time", "slow", "stopping"])
+def test_robots_that_start_in_no_bay_drive_to_one_at_once(stops: float | None) -> None:
+    """Robot b stands in a's way; the planner counts on it being led to its bay."""
+    bays = tuple(Zone(f"p{y}", "parking", square(3.0, y), Pose(3.0, y, 0.0)) for y in (3.0, 9.0))
+    scenario = hall(
+        site=Site(((0, 0), (20, 0), (20, 12), (0, 12)), zones=bays),
+        robot_types={"carrier": replace(CARRIER, clearance=0.1)},
+        robots=(
+            Robot("a", "carrier", Pose(3.0, 3.0, 0.0)),
+            Robot("b", "carrier", Pose(10.0, 9.0, 0.0)),
+        ),
+        orders=(Order(Task("t1", (Visit("t1", Pose(16.0, 9.0, 0.0), 1.0),), "a")),),
+    )
+    run = run_through_time(scenario if stops is None else late(scenario, stops))
+    assert run.status == "done"
+    ends = {e["robot"]: (e["x"][-1], e["y"][-1]) for e in run.trace.of("motion")}
+    assert ends["b"] == pytest.approx((3.0, 9.0), abs=1e-5)
+    assert judged(run) == []
+
+
+def square(x: float, y: float) -> tuple[tuple[float, float], ...]:
+    return ((x - 2, y - 2), (x + 2, y - 2), (x + 2, y + 2), (x - 2, y + 2))
+
+
+def test_a_service_goes_on_though_its_trip_is_given_up() -> None:
+    """A wall closes the way to the second visit of 8 s into the first; the robot turns home then.
+
+    Its order is given back and fails, as it leads nowhere; what the robot does next waits until
+    the first visit is over.
+    """
+    bay = Zone("p", "parking", square(3.0, 6.0), Pose(3.0, 6.0, 0.0))
+    visits = Visit("far", Pose(10.0, 6.0, 0.0), 20.0), Visit("far", Pose(25.0, 6.0, 0.0), 1.0)
+    near = Order(Task("near", (Visit("near", Pose(6.0, 6.0, 0.0), 1.0),)))
+    scenario = hall(
+        site=Site(((0, 0), (30, 0), (30, 12), (0, 12)), zones=(bay,)),
+        robots=(Robot("a", "carrier", Pose(3.0, 6.0, 0.0)),),
+        orders=(Order(Task("far", visits)), near),
+        simulation=Simulation(
+            until=200.0, surprises=(Surprise(12.0, Obstacle(wall=((18.0, 0.0), (18.0, 12.0)))),)
+        ),
+    )
+    run = run_through_time(scenario)
+    assert judged(run) == []
+    stays = [(e["state"], e["t"]) for e in run.trace.of("visit") if e["task"] == "far"]
+    assert [state for state, _ in stays] == ["arrived", "left"]
+    assert stays[1][1] - stays[0][1] == pytest.approx(20.0)
+    states = [e["state"] for e in run.trace.of("order") if e["order"] == "far"]
+    assert states[:4] == ["released", "assigned", "started", "released"]
+    assert run.trace.events[-1]["orders_done"] == 1
+
+
+@pytest.mark.parametrize(
+    ("seed", "robots", "orders", "dispatch", "stops"),
+    [(3, 4, 16, "nearest", 0.0), (5, 6, 20, "ahead", 0.0), (8, 6, 20, "nearest", 60.0)],
+)
+def test_obstacles_on_lanes_leave_a_right_trace(
+    seed: int, robots: int, orders: int, dispatch: str, stops: float
+) -> None:
+    """Discs fall into the lanes; orders may fail, but nothing is hit and nobody breaks down."""
+    scenario = shelf_batch(
+        SMALL["bidirectional"], robots, orders, seed, settings={"dispatch": dispatch}
+    )
+    rng = random.Random(seed)
+    found = tuple(
+        Surprise(at, Obstacle(disc=(rng.uniform(1.0, 17.0), rng.uniform(1.0, 9.0), 0.4)))
+        for at in (20.3, 40.7, 60.1)
+    )
+    simulation = Simulation(
+        until=600.0, surprises=found, disturbances=Disturbances(stops_per_hour=stops)
+    )
+    run = run_through_time(replace(scenario, simulation=simulation))
+    assert run.status in ("done", "ended")
+    assert any(e["kind"] == "obstacle" for e in run.trace.of("fault"))
     assert judged(run) == []

@@ -7,6 +7,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+from clearway.cli.interrupts import Interrupts
 from clearway.cli.main import DONE, INTERRUPTED, NO_ANSWER, WRONG, interrupted
 from clearway.cli.progress import ProgressLine
 from clearway.formats.atomic import write_text
@@ -38,7 +39,13 @@ def run_simulate(arguments: argparse.Namespace) -> int:
     out.mkdir(parents=True, exist_ok=True)
     trace_file = out / "trace.jsonl"
     warnings: list[Finding] = []
-    with ProgressLine(quiet=arguments.quiet) as line, ExitStack() as stack:
+    has_begun = False
+    with ProgressLine(quiet=arguments.quiet) as line, Interrupts() as ctrl_c, ExitStack() as stack:
+        tell_line = line.running(scenario.simulation.until)
+
+        def tell(second: float, done: int, left: int) -> None:
+            ctrl_c.check()
+            tell_line(second, done, left)
 
         def warn(finding: Finding) -> None:
             warnings.append(finding)
@@ -50,21 +57,24 @@ def run_simulate(arguments: argparse.Namespace) -> int:
             for name in ("plan.json", "metrics.json", "report.html", "plan.png"):
                 (out / name).unlink(missing_ok=True)
             copy_scenario(source, out / "scenario.toml")
+            nonlocal has_begun
+            has_begun = True
             return stack.enter_context(TraceWriter(trace_file, header))
 
-        run = simulate(
-            scenario,
-            seed=arguments.seed,
-            budget=Budget(arguments.budget, arguments.expansions),
-            record=record,
-            tell=line.running(scenario.simulation.until),
-            warn=warn,
-            clock=time.process_time,
-        )
-        stack.close()
-        if run.status == "interrupted":
-            return _told_interrupted(arguments, run, trace_file)
         try:
+            run = simulate(
+                scenario,
+                seed=arguments.seed,
+                budget=Budget(arguments.budget, arguments.expansions),
+                record=record,
+                tell=tell,
+                warn=warn,
+                clock=time.process_time,
+                hold=ctrl_c.held,
+            )
+            stack.close()
+            if run.status == "interrupted":
+                return _told_interrupted(arguments, run, trace_file)
             line.say("judging")
             # What is judged is what was written.
             trace = read_trace(trace_file)
@@ -72,7 +82,9 @@ def run_simulate(arguments: argparse.Namespace) -> int:
             line.say("writing the run folder")
             files = _write(trace, violations, out)
         except KeyboardInterrupt:
-            kept = f"the whole trace is in {trace_file}; clearway validate {trace_file} judges it"
+            if not has_begun:
+                raise
+            kept = f"the trace is in {trace_file}; clearway validate {trace_file} judges it"
             return interrupted(arguments, kept)
     code = WRONG if violations else CODES.get(run.status, NO_ANSWER)
     _tell(arguments, scenario, run, trace, violations, warnings, files)

@@ -1,9 +1,9 @@
 """The lifelong loop: what a fleet tells comes in, what it shall do goes out."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from clearway.model import TICKS_PER_SECOND, Commitment, Robot
+from clearway.model import TICKS_PER_SECOND, Commitment, Robot, Visit
 from clearway.protocols import (
     Board,
     Choice,
@@ -30,6 +30,9 @@ class CoordinatorParams:
         Ticks between two tries at the most.
     most_effort
         By how much the effort for a robot that is refused again and again may grow.
+    most_tries
+        Refusals in a row after which a robot is tried again only when something happens; more
+        let a run without hope end later.
     lead
         Ticks from now on in which robots may do what they have been granted; new motion begins
         no sooner.
@@ -38,6 +41,7 @@ class CoordinatorParams:
     retry: int = TICKS_PER_SECOND
     most_retry: int = 8 * TICKS_PER_SECOND
     most_effort: int = 16
+    most_tries: int = 40
     lead: int = 0
 
 
@@ -68,6 +72,8 @@ class Coordinator:
             self._see(robot.id, energy=robot.energy, place=trips.commitment(robot.id).rest)
         self._completes: dict[str, bool] = {}
         self._refused: dict[str, tuple[int, int]] = {}  # robot: times in a row, tick to try again
+        # Planners lead robots out of the way at once, which the fleet must learn.
+        self._untold = [r.id for r in robots if trips.commitment(r.id).trajectory.pieces]
 
     @property
     def open_orders(self) -> int:
@@ -78,10 +84,12 @@ class Coordinator:
         """Return what the fleet shall do now."""
         board = self._board
         board.now = seen.now
-        changed: dict[str, Commitment] = {}
+        changed = {robot: self._trips.commitment(robot) for robot in self._untold}
+        self._untold = []
         failed: dict[str, str] = {}
         if seen.trajectories is not None:
             self._trips.retime(seen.trajectories, seen.now)
+            self._see_ready(seen.trajectories)
         for order in seen.arrived:
             board.open[order.task.id] = order
         for robot, level in seen.energy.items():
@@ -99,21 +107,36 @@ class Coordinator:
             told.append(outcome)
             if isinstance(outcome.outcome, Commitment):
                 changed[choice.trip.robot] = outcome.outcome
-                for other in self._trips.changed:
-                    changed[other.robot] = other
+                others = {other.robot: other for other in self._trips.changed}
+                changed |= others
+                self._see_ready(others)
             elif outcome.outcome.for_good and choice.elsewhere:
                 is_soon = True
             elif outcome.outcome.for_good and choice.trip.order is not None:
-                failed[choice.trip.order] = outcome.outcome.reason
-                board.open.pop(choice.trip.order, None)
-                board.taken.pop(choice.trip.order, None)
-                is_soon = True
+                self._fail(choice.trip.order, outcome.outcome.reason, failed)
         board.ended = board.arrived = ()
-        waits = [again for _, again in self._refused.values() if again > seen.now]
-        wake = seen.now + 1 if is_soon else min(waits, default=None)
+        # Who was to do an order that has failed may do another one.
+        is_soon = is_soon or bool(failed)
+        wake = seen.now + 1 if is_soon else self._next_try(seen.now)
         return Decision(
             changed, tuple(told), tuple(done), failed, tuple(diverted), tuple(given_back), wake
         )
+
+    def _next_try(self, now: int) -> int | None:
+        """Return when a refused robot is to be tried again; nobody wanted those overdue now."""
+        ahead = [
+            again
+            for times, again in self._refused.values()
+            if again > now and times < self._params.most_tries
+        ]
+        return min(ahead, default=None)
+
+    def _fail(self, order: str, reason: str, failed: dict[str, str]) -> None:
+        """Give an order up for good, once, whatever becomes of the robot that has it."""
+        if order in self._board.open:
+            failed[order] = reason
+        for known in (self._board.open, self._board.taken, self._board.refusals):
+            known.pop(order, None)
 
     def _divert(self, seen: Observation, failed: dict[str, str]) -> tuple[list[str], list[str]]:
         """Plan round obstacles; return the robots concerned and the orders they gave back."""
@@ -124,22 +147,30 @@ class Coordinator:
             before = {robot: self._trips.commitment(robot) for robot in board.robots}
             for robot in self._trips.block(obstacle, seen.now, lead):
                 diverted[robot] = None
-                trip, commitment = board.robots[robot].trip, self._trips.commitment(robot)
-                if trip is not None and commitment.trip is trip:
+                trip, now = board.robots[robot].trip, self._trips.commitment(robot)
+                if trip is not None and now.trip is trip:
+                    self._see_ready([robot])
                     continue
-                end = commitment.trajectory.final_pose
-                self._see(robot, trip=None, pose=end, place=commitment.rest)
+                self._see(robot, pose=now.trajectory.final_pose, place=now.rest)
                 if trip is None:
                     continue
-                self._see(robot, idle_since=seen.now, ready=seen.now)
+                stops = before[robot].trajectory.stops
+                # A service that has begun is gone through with.
+                served = [trip.visits[stop.visit] for stop in stops if stop.arrive <= seen.now]
+                self._see(
+                    robot,
+                    trip=None,
+                    carries=_on_board(board.robots[robot].carries, served),
+                    ready=seen.now,
+                    idle_since=seen.now,
+                )
                 if trip.order is None:
                     continue
-                board.taken.pop(trip.order, None)
-                served = [s.visit for s in before[robot].trajectory.stops if s.leave <= seen.now]
-                if any(trip.visits[visit].load for visit in served):
-                    failed[trip.order] = f"an obstacle bars the way of {robot}, which has the load"
-                    board.open.pop(trip.order, None)
+                if any(visit.load for visit in served):
+                    reason = f"an obstacle bars the way of {robot}, which has the load"
+                    self._fail(trip.order, reason, failed)
                 else:
+                    board.taken.pop(trip.order, None)
                     given_back.append(trip.order)
         return list(diverted), given_back
 
@@ -159,7 +190,8 @@ class Coordinator:
                 board.barred.setdefault(trip.robot, set()).update(zones)
             if outcome.stranded:
                 board.stranded.add(trip.robot)
-            if outcome.for_good and choice.elsewhere:
+            if outcome.for_good and (choice.elsewhere or trip.order in board.open):
+                # It is the place or the order that is hopeless, not the robot.
                 return Told(choice, outcome, spent)
             pause = min(self._params.retry * 2**times, self._params.most_retry)
             self._refused[trip.robot] = (times + 1, board.now + pause)
@@ -169,7 +201,7 @@ class Coordinator:
         self._refused.pop(trip.robot, None)
         self._completes[trip.robot] = choice.completes
         self._see(trip.robot, trip=trip, ready=outcome.served)
-        if trip.order is not None:
+        if trip.order in board.open:
             board.taken[trip.order] = trip.robot
             board.refusals.pop(trip.order, None)
         return Told(choice, outcome, spent)
@@ -187,17 +219,33 @@ class Coordinator:
                 trip=None,
                 pose=trip.visits[-1].pose,
                 place=trip.goals[-1] if not trip.rests else commitment.rest,
-                carries=trip.carries,
+                carries=trip.carries or _on_board(board.robots[robot].carries, trip.visits),
                 ready=seen.now,
                 idle_since=seen.now,
             )
-            if trip.order is not None and self._completes[robot]:
+            if trip.order in board.open and self._completes[robot]:
                 done.append(trip.order)
                 board.open.pop(trip.order, None)
                 board.taken.pop(trip.order, None)
         board.ended = tuple(ended)
         return done
 
+    def _see_ready(self, robots: Iterable[str]) -> None:
+        """Learn when robots on trips are done with them, now that their times have changed."""
+        for robot in robots:
+            if self._board.robots[robot].trip is not None:
+                self._see(robot, ready=self._trips.commitment(robot).served)
+
     def _see(self, robot: str, **change: object) -> None:
         view = self._board.robots[robot]
         self._board.robots[robot] = replace(view, **change)  # type: ignore[arg-type]
+
+
+def _on_board(objects: tuple[str, ...], served: Iterable[Visit]) -> tuple[str, ...]:
+    """Return what is on board after some visits."""
+    for visit in served:
+        if visit.load == "pick":
+            objects = (*objects, visit.task or "load")
+        elif visit.load == "drop":
+            objects = objects[:-1]
+    return objects

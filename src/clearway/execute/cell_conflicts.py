@@ -148,7 +148,7 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
     """Return the cells that a robot holds, in order, the last one for ever.
 
     The first piece may be what is left of a move that began before; the last one may end between
-    two cells, in front of an obstacle, and holds both for ever.
+    two cells, which are then both held for ever.
 
     Raises
     ------
@@ -157,37 +157,36 @@ def holds_of(grid: LaneGrid, trajectory: Trajectory) -> list[CellHold]:
     """
     moves: list[tuple[int, int, Cell]] = []
     first = here = grid.cell_at(trajectory.start)
-    driven = [
-        (piece, timing)
-        for piece, timing in zip(trajectory.pieces, trajectory.timing, strict=True)
-        if piece.length / grid.cell >= NEAR
-    ]
-    for piece, (begin, end) in driven:
+    for piece, (begin, end) in zip(trajectory.pieces, trajectory.timing, strict=True):
         cells = piece.length / grid.cell
-        step, goal = _step(piece.start, piece.end), grid.cell_at(piece.end)
-        beyond = _beyond(grid, piece.end, step)
-        if piece is driven[-1][0] and abs(beyond) > NEAR:
-            ahead = 1.0 - beyond if beyond > 0.0 else -beyond
-            goal = (goal[0] + step[0], goal[1] + step[1]) if beyond > 0.0 else goal
-            end += math.ceil((end - begin) / cells * ahead)
-            cells += ahead
-        count = math.ceil(cells - NEAR)
+        if cells < NEAR:
+            continue
+        step = _step(piece.start, piece.end)
+        ahead, at = _to_middle(grid, piece.end, step)
+        goal = grid.cell_at(at)
+        count = math.ceil(cells + ahead - NEAR)
         origin = (goal[0] - count * step[0], goal[1] - count * step[1])
         if not moves:
             first = here = origin
-        is_between = abs(beyond) > NEAR and piece is not driven[-1][0]
-        if step == (0, 0) or is_between or _aside(grid, piece.end, step) > NEAR or origin != here:
+        middle = at.distance(grid.centre(goal))
+        if step == (0, 0) or middle > NEAR or origin != here:
             raise ValueError(
                 f"robot {trajectory.robot}, piece {piece.id}: does not lead along a row or column "
                 f"from cell {here} to the middle of another"
             )
         each = (end - begin) / cells
         for k in range(count, 0, -1):
-            go, there = math.floor(end - each * k + NEAR), math.ceil(end - each * (k - 1) - NEAR)
-            moves.append((go, there, step))
+            go = math.floor(end + each * (ahead - k) + NEAR)
+            there = math.ceil(end + each * (ahead - k + 1) - NEAR)
+            moves.append((go, there if there <= end else NEVER, step))
         here = goal
-        if abs(beyond) > NEAR:
-            moves[-1] = (moves[-1][0], NEVER, step)
+    if not moves:
+        step = round(math.cos(trajectory.start.theta)), round(math.sin(trajectory.start.theta))
+        ahead, at = _to_middle(grid, trajectory.start, step)
+        if ahead > NEAR:  # it stands between two cells for ever
+            goal = grid.cell_at(at)
+            first = here = (goal[0] - step[0], goal[1] - step[1])
+            moves.append((0, NEVER, step))
     holds = []
     here, enter, there, came = first, 0, 0, None
     for begin, end, step in moves:
@@ -203,16 +202,12 @@ def _follows(mine: CellHold, its: CellHold) -> bool:
     return mine.came is not None and mine.came == its.goes
 
 
-def _beyond(grid: LaneGrid, pose: Pose, step: Cell) -> float:
-    """Return how far a pose is beyond the middle of its cell, along a step (cells)."""
-    middle = grid.centre(grid.cell_at(pose))
-    return ((pose.x - middle.x) * step[0] + (pose.y - middle.y) * step[1]) / grid.cell
-
-
-def _aside(grid: LaneGrid, pose: Pose, step: Cell) -> float:
-    """Return how far a pose is beside the middle of its cell, across a step (m)."""
-    middle = grid.centre(grid.cell_at(pose))
-    return abs((pose.x - middle.x) * step[1]) + abs((pose.y - middle.y) * step[0])
+def _to_middle(grid: LaneGrid, pose: Pose, step: Cell) -> tuple[float, Pose]:
+    """Return how far (cells) the next middle of a cell is from a pose along a step, and where."""
+    along = (step[0] * pose.x + step[1] * pose.y) / grid.cell - 0.5 * sum(step)
+    ahead = max(0.0, math.ceil(along - NEAR) - along)
+    by = ahead * grid.cell
+    return ahead, Pose(pose.x + by * step[0], pose.y + by * step[1], pose.theta)
 
 
 def _step(start: Pose, end: Pose) -> Cell:

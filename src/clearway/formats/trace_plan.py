@@ -9,10 +9,20 @@ import numpy as np
 from clearway.model import PlanRecord, Pose, Status, Trace, Track, Visit
 
 STANDING = "stop"
+_ENDED = {
+    "ended": "was over before all orders were done",
+    "stuck": "is stuck with orders open",
+    "stopped": "was stopped as its budget was spent",
+    "interrupted": "was interrupted",
+}
 
 
 def plan_of(trace: Trace) -> PlanRecord:
-    """Return the motion and visits of a trace as a plan, made when all was over."""
+    """Return the motion and visits of a trace as a plan, made when all was over.
+
+    It is solved where the trace tells that all is done; else it says how the run ended.
+    """
+    reason = _reason(trace)
     tracks = {robot: _joined(parts) for robot, parts in _motions(trace).items()}
     tours: dict[str, list[Visit]] = {robot.id: [] for robot in trace.robots}
     for event in trace.of("visit"):
@@ -31,8 +41,8 @@ def plan_of(trace: Trace) -> PlanRecord:
         scenario=trace.scenario,
         system=trace.system,
         seed=trace.seed,
-        status=Status.SOLVED if trace.is_whole else Status.STOPPED,
-        reason=None if trace.is_whole else "the trace is cut",
+        status=Status.SOLVED if reason is None else Status.STOPPED,
+        reason=reason,
         site=trace.site,
         robot_types=trace.robot_types,
         robots=trace.robots,
@@ -47,6 +57,17 @@ def plan_of(trace: Trace) -> PlanRecord:
         parameters=trace.parameters,
         version=trace.version,
     )
+
+
+def _reason(trace: Trace) -> str | None:
+    """Return why not all is done; ``None`` where it is."""
+    endings = trace.of("end")
+    if not endings:
+        return "the trace is cut"
+    ending = endings[-1]
+    if ending["status"] == "done":
+        return None
+    return f"the run {_ENDED.get(ending['status'], ending['status'])}"
 
 
 def _motions(trace: Trace) -> dict[str, list[Mapping[str, Any]]]:

@@ -181,8 +181,10 @@ def ending(trace: Trace) -> dict[str, Any]:
 
 
 def trace_to_json(metrics: TraceMetrics) -> dict[str, Any]:
-    """Return the content of ``metrics.json``."""
+    """Return the content of ``metrics.json``; CPU times, never twice the same, are ``timings``."""
     content = asdict(metrics)
+    decisions = content["decisions"]
+    content["timings"] = {key: decisions.pop(key) for key in list(decisions) if "cpu" in key}
     content["per_robot"] = {entry.pop("robot"): entry for entry in content["per_robot"]}
     return content
 

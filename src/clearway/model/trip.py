@@ -25,7 +25,8 @@ class Trip:
         Names of the zones in one of which it may rest afterwards; empty: it rests at its last
         visit, which must be out of everybody's way.
     carries
-        Objects on board after the trip, such as the shelf that it has fetched.
+        Objects on board after the trip, such as the shelf that it has fetched; empty: what its
+        visits leave there.
     """
 
     robot: str

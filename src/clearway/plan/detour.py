@@ -49,6 +49,8 @@ class Detour:
             num_done = sum(stop.leave <= kept.ready for stop in old.trajectory.stops)
             if self._found(robot, kept, trip, num_done):
                 return {}
+        busy = [s.leave for s in old.trajectory.stops if s.arrive <= now < s.leave]
+        fleet.busy[robot] = max([*busy, fleet.busy.get(robot, now)])
         if self._found(robot, kept, None, 0):
             return {}
         tick = kept.ready

@@ -151,7 +151,8 @@ def numbered(pieces: Sequence[Piece]) -> tuple[Piece, ...]:
 def stays_of(grid: LaneGrid, trajectory: Trajectory) -> list[_core.CellStay]:
     """Return when a robot is in the middle of each cell that it passes, by its trajectory.
 
-    A robot that starts between two cells has left the one behind at tick 0.
+    A robot that starts between two cells has left the one behind at tick 0; one that ends there
+    comes to the one ahead at the end of time, so that it holds both.
     """
     width = grid.size[0]
     # Cell, arrive, depart, and when it turns.
@@ -186,6 +187,13 @@ def stays_of(grid: LaneGrid, trajectory: Trajectory) -> list[_core.CellStay]:
         for middle in range(math.ceil(place - _SAME), math.floor(place + length + _SAME) + 1):
             by = middle - place
             visit(x + by * dx, y + by * dy, first + round(by / length * (last - first)))
+    end = trajectory.final_pose
+    x, y = end.x / grid.cell - 0.5, end.y / grid.cell - 0.5
+    dx, dy = round(math.cos(end.theta)), round(math.sin(end.theta))
+    place = x * dx + y * dy
+    ahead = math.ceil(place - _SAME) - place
+    if ahead > _SAME:
+        visit(x + ahead * dx, y + ahead * dy, _core.NEVER - 1)
     stays[-1][2] = _core.NEVER
     for stay in stays[:-1]:
         if stay[3] == stay[4]:

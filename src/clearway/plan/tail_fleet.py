@@ -56,6 +56,8 @@ class TailFleet:
         self.bays = [z.name for z in scenario.site.zones_of("parking") if z.pose is not None]
         self._loads = dict.fromkeys(self.ids, 0)  # before its committed trip
         self.commitments: dict[str, Commitment] = {}
+        # When services end that go on though their trips were given up.
+        self.busy: dict[str, int] = {}
         for robot in scenario.robots:
             bay = next((name for name in self.bays if self._is_at(name, robot.start)), None)
             self.commitments[robot.id] = Commitment(
@@ -91,6 +93,7 @@ class TailFleet:
 
     def cut(self, robot: str, now: int, at: int) -> Kept:
         """Return what is kept of a robot's motion that is left at tick ``at`` or soon after."""
+        at = max(at, self.busy.get(robot, at))
         anywhere = not self.type(robot).type.limits.has_ramps
         return cut(self.commitments[robot].trajectory, now, at, anywhere)
 

@@ -120,7 +120,8 @@ class WaitsByRule:
                 break
             mine = self._pause(robot, route.stays, index, clash.other, granted)
         if mine is None or rule.waiter != "one":
-            for index in waiting_nodes(self._grid, two, b):
+            ends = theirs[-1].arrive < _core.NEVER - 1  # else it stands between two cells for ever
+            for index in waiting_nodes(self._grid, two, b) if ends else ():
                 if theirs[index].turn_begin <= granted or yours:
                     break
                 yours = self._pause(clash.other, theirs, index, robot, 0)

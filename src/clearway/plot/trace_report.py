@@ -21,6 +21,11 @@ _BADGES = {
     "interrupted": "Interrupted",
     "cut": "Cut short",
 }
+_HEADLINES = {
+    "stuck": "The run is stuck: orders are open, but nothing happens any more",
+    "stopped": "The run was stopped, as its budget was spent",
+    "interrupted": "The run was interrupted",
+}
 
 
 def write_trace_report(

@@ -191,9 +191,9 @@ class Observation:
         Levels that have changed.
     found
         Obstacles nobody knew of.
-    late
-        Whether robots are behind their committed times; ``trajectories`` then holds what they
-        will do if nothing else holds them up: everybody's same paths at new times.
+    trajectories
+        Where robots are behind their committed times, what they will do if nothing else holds
+        them up: everybody's same paths at new times. ``None``: nobody is late.
     """
 
     now: int

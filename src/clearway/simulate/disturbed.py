@@ -263,7 +263,9 @@ class Disturbed:
             return end
         mover.held_by = None
         reach = (end - tick) * mover.pace + mover.credit
-        step = min(room, math.floor(reach), math.ceil(mover.until_stop))
+        step = min(room, math.floor(reach))
+        if mover.until_stop < step:
+            step = math.ceil(mover.until_stop)
         if step <= 0:
             mover.credit = reach
             return end

@@ -63,15 +63,15 @@ def released(now: int, new: Order) -> Event:
     }
 
 
-def visit(now: int, robot: str, trip: Trip, number: int, state: str) -> Event:
-    """Return that a robot has arrived at a visit of its trip, or left it."""
+def visit(now: int, robot: str, trip: Trip, number: int, state: str, order: str | None) -> Event:
+    """Return that a robot has arrived at a visit of its trip, or left it; for an open order."""
     made = trip.visits[number]
     event: dict[str, Any] = {
         "event": "visit",
         "t": to_seconds(now),
         "robot": robot,
         "task": made.task,
-        "order": trip.order,
+        "order": order,
         "state": state,
     }
     if state == "arrived":

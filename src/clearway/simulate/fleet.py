@@ -17,6 +17,7 @@ from clearway.protocols import Decision, Observation
 from clearway.simulate import events
 from clearway.simulate.arriving import Arriving
 from clearway.simulate.events import Record
+from clearway.simulate.kernel import Kernel
 from clearway.simulate.motion import Occurrence, RobotMotion
 
 # Called now and then: second, orders done, orders open.
@@ -54,7 +55,10 @@ class SimulatedFleet:
         self._since = {robot.id: 0 for robot in robots}  # when its trip began
         self._moved = {robot.id: 0 for robot in robots}  # ticks in motion since then
         self._at_visits = {robot.id: 0 for robot in robots}  # ticks, since then
-        self._arrived: dict[str, int] = {}  # when, of those at a visit
+        self._arrived: dict[str, tuple[int, int]] = {}  # when, of those at a visit, and at which
+        # Services that go on though their trips were given up.
+        self._left_over: Kernel[tuple[str, Trip, int]] = Kernel()
+        self._leaves = {robot.id: 0 for robot in robots}  # when the last of those ends
         self._rest_at = {robot.id: 0 for robot in robots}
         self._objects: dict[str, tuple[str, ...]] = {robot.id: () for robot in robots}
         self._idle_for: dict[str, tuple[str, ...]] = {}
@@ -155,9 +159,12 @@ class SimulatedFleet:
                 is_up = self._until is not None and self._now >= self._until
                 status = "ended" if is_up else "stuck"
         if status == "done":
-            # The last ones still drive to their rest.
+            # The last ones still drive to their rest; late ones come there later than planned.
             self._now = max(self._now, *self._rest_at.values())
             self._advance()
+            while (tick := self._motion.next_tick()) is not None:
+                self._now = max(self._now, tick)
+                self._advance()
         for robot in self._trips:
             self._flush(robot)
             if self._trips[robot] is not None:
@@ -183,6 +190,7 @@ class SimulatedFleet:
         if not self._open and not busy and self._arriving.exhausted:
             return None
         ticks = [self._motion.next_tick(), self._arriving.next_tick(), self._wake]
+        ticks.append(self._left_over.next_tick())
         if self._num_found < len(self._surprises):
             ticks.append(to_ticks(self._surprises[self._num_found].at))
         ahead = [max(tick, self._now) for tick in ticks if tick is not None]
@@ -206,6 +214,10 @@ class SimulatedFleet:
                 served.append(one.robot)
                 if self._battery[one.robot] is not None:
                     energy[one.robot] = self._level[one.robot]
+        while (over := self._left_over.pop(self._now)) is not None:
+            robot, trip, number = over
+            self._record(events.visit(self._now, robot, trip, number, "left", None))
+            self._load(self._now, trip, trip.visits[number], False)
         return served, energy
 
     def _visited(self, one: Occurrence) -> bool:
@@ -213,14 +225,16 @@ class SimulatedFleet:
         robot, trip = one.robot, self._trips[one.robot]
         assert trip is not None
         self._flush(robot)
-        self._record(events.visit(one.tick, robot, trip, one.visit, one.kind))
+        # A robot may have to bring back what it fetched for an order that has failed.
+        serves = trip.order if trip.order in self._open else None
+        self._record(events.visit(one.tick, robot, trip, one.visit, one.kind, serves))
         if one.kind == "arrived":
-            self._arrived[robot] = one.tick
+            self._arrived[robot] = one.tick, one.visit
             if trip.order is not None and trip.order in self._assigned:
                 self._assigned.discard(trip.order)
                 self._record(events.order(one.tick, trip.order, "started", robot=robot))
             return False
-        self._at_visits[robot] += one.tick - self._arrived.pop(robot)
+        self._at_visits[robot] += one.tick - self._arrived.pop(robot)[0]
         last = one.visit == len(trip.visits) - 1
         self._load(one.tick, trip, trip.visits[one.visit], last)
         if not last:
@@ -234,7 +248,7 @@ class SimulatedFleet:
     def _load(self, tick: int, trip: Trip, visit: Visit, last: bool) -> None:
         robot = trip.robot
         on_board = self._objects[robot]
-        if last:
+        if last and trip.carries:
             on_board = trip.carries
         elif visit.load == "pick":
             on_board = (*on_board, visit.task or "load")
@@ -270,11 +284,16 @@ class SimulatedFleet:
             self._arriving.taken(order, self._now)
 
     def _begin(self, robot: str, trip: Trip | None) -> None:
+        given_up, arrived = self._trips[robot], self._arrived.pop(robot, None)
+        if given_up is not None and arrived is not None:
+            since, number = arrived
+            self._leaves[robot] = since + to_ticks(given_up.visits[number].service)
+            self._left_over.at(self._leaves[robot], (robot, given_up, number))
         self._trips[robot] = trip
         if trip is None:
             self._left_idle.append(robot)
-        self._since[robot], self._moved[robot], self._at_visits[robot] = self._now, 0, 0
-        self._arrived.pop(robot, None)
+        self._since[robot], self._moved[robot] = self._now, 0
+        self._at_visits[robot] = max(0, self._leaves[robot] - self._now)
 
     def _flush(self, robot: str) -> None:
         """Write what has been driven, and count it."""
@@ -292,7 +311,9 @@ class SimulatedFleet:
 
     def _account(self, robot: str, end: int) -> None:
         """Count the standing of a trip that was not at a visit."""
-        at_visits = self._at_visits[robot] + end - self._arrived.get(robot, end)
+        at_visits = self._at_visits[robot]
+        if robot in self._arrived:
+            at_visits += end - self._arrived[robot][0]
         lasted = end - self._since[robot]
         self._waited += max(0, lasted - self._moved[robot] - at_visits)
 

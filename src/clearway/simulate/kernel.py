@@ -22,6 +22,10 @@ class Kernel(Generic[Item]):
         """Return when something happens next."""
         return self._heap[0][0] if self._heap else None
 
+    def first(self) -> Item | None:
+        """Return what happens next, if anything does."""
+        return self._heap[0][2] if self._heap else None
+
     def pop(self, now: int) -> Item | None:
         """Return the next thing that happens up to tick ``now``, or nothing."""
         if self._heap and self._heap[0][0] <= now:

@@ -41,7 +41,13 @@ class OnTime:
 
     def next_tick(self) -> int | None:
         """Return when something occurs next, if anything does."""
-        return self._ahead.next_tick()
+        while (tick := self._ahead.next_tick()) is not None:
+            item = self._ahead.first()
+            assert item is not None
+            if item[0] == self._version[item[1].robot]:
+                return tick
+            self._ahead.pop(tick)
+        return None
 
     def advance(self, now: int) -> Sequence[Occurrence]:
         """Move everybody on; see `RobotMotion`."""

@@ -1,6 +1,7 @@
 """From a scenario to what happens in it: orders that arrive, until they are done."""
 
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field, replace
 from importlib.metadata import version
 
@@ -20,6 +21,7 @@ from clearway.validate.legality import check_scenario
 
 Clock = Callable[[], float]
 Recorder = Callable[[Trace], Record]
+Hold = Callable[[], AbstractContextManager[None]]
 
 
 def _nowhere(header: Trace) -> Record:
@@ -53,6 +55,7 @@ def simulate(
     tell: Tell = lambda second, done, left: None,
     warn: Callable[[Finding], None] = lambda finding: None,
     clock: Clock | None = None,
+    hold: Hold = nullcontext,
 ) -> Simulated:
     """Run a scenario through time.
 
@@ -65,15 +68,17 @@ def simulate(
     budget
         Seconds of ``clock``, or expansions of the planner, after which it stops.
     record
-        Called with the trace's header, events empty; returns what takes each event as it
-        happens.
+        Called with the trace's header, events empty, once all parts are made; returns what takes
+        each event as it happens.
     tell
-        Called with the second, orders done and orders open.
+        Called with the second, orders done and orders open; it may raise `KeyboardInterrupt`.
     warn
         Called before anything happens with each finding that lets the scenario run, but makes its
         result doubtful.
     clock
         Source of CPU seconds for decisions and the budget; absent: none are told.
+    hold
+        Makes the context within which events are written and `KeyboardInterrupt` should wait.
 
     Raises
     ------
@@ -92,7 +97,14 @@ def simulate(
         return record(header)
 
     return run_through_time(
-        scenario, system, seed=seed, budget=budget, record=begin, tell=tell, clock=clock
+        scenario,
+        system,
+        seed=seed,
+        budget=budget,
+        record=begin,
+        tell=tell,
+        clock=clock,
+        hold=hold,
     )
 
 
@@ -118,6 +130,7 @@ def run_through_time(
     record: Recorder = _nowhere,
     tell: Tell = lambda second, done, left: None,
     clock: Clock | None = None,
+    hold: Hold = nullcontext,
 ) -> Simulated:
     """Run a scenario that is known to be legal; see `simulate`."""
     chosen = system or choose_lifelong(scenario)
@@ -125,14 +138,15 @@ def run_through_time(
     if reasons:
         raise Unsupported("; ".join(reasons))
     seed = scenario.seed if seed is None else seed
-    header = _header(scenario, chosen, seed)
+    motion, arrivals = _motion(scenario, chosen, seed), Arrivals(scenario, seed)
     trips = chosen.trips(scenario)
-    motion = _motion(scenario, chosen, seed)
     # Robots that may be late have been granted what they do within a period.
     lead = PERIOD if scenario.simulation.disturbances else 0
     coordinator = Coordinator(
         scenario.robots, chosen.dispatch(scenario), trips, CoordinatorParams(lead=lead), clock
     )
+    is_spent = _is_spent(budget or Budget(), clock, trips)
+    header = _header(scenario, chosen, seed)
     told: list[Event] = []
     # Only now, as any part may refuse the scenario, and what an earlier run wrote is to stay then.
     write = record(header)
@@ -141,18 +155,24 @@ def run_through_time(
         told.append(event)
         write(event)
 
-    fleet = SimulatedFleet(scenario, motion, Arrivals(scenario, seed), keep, tell)
-    is_spent = _is_spent(budget or Budget(), clock, trips)
+    fleet = SimulatedFleet(scenario, motion, arrivals, keep, tell)
     status = None
     try:
-        while (seen := fleet.observe()) is not None:
-            fleet.execute(coordinator.decide(seen))
+        while True:
+            with hold():
+                seen = fleet.observe()
+            if seen is None:
+                break
+            decision = coordinator.decide(seen)
+            with hold():
+                fleet.execute(decision)
             if is_spent():
                 status = "stopped"
                 break
     except KeyboardInterrupt:
         status = "interrupted"
-    status = fleet.close(status)
+    with hold():
+        status = fleet.close(status)
     trace = replace(header, events=tuple(told), is_whole=True)
     return Simulated(trace, status, dict(trips.counters))
 
@@ -179,7 +199,7 @@ def _is_spent(budget: Budget, clock: Clock | None, trips: TripPlanner) -> Callab
 def _header(scenario: Scenario, system: Lifelong, seed: int) -> Trace:
     return Trace(
         scenario=scenario.name,
-        system=scenario.system,
+        system=system.name,
         seed=seed,
         site=scenario.site,
         robot_types=dict(scenario.robot_types),
