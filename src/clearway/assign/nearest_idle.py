@@ -59,6 +59,10 @@ class NearestIdle(ShelfCycle):
             place = self.yard.where[shelf] or ""
             turn = board.refusals.get(order.task.id, 0) // TRIES
             ranked = self._robots(place, 1 + self.params.alternatives + turn)
+            owner = self.yard.owner(place)
+            if owner in self._barred_robots(place):
+                # It cannot get away, so that nobody else gets there: it is to say so.
+                ranked = [Alternative(owner or "", 0.0)]
             if not ranked:
                 if self._may_others_fetch(None, place, board):
                     refused.append(taken)  # until one of them is idle

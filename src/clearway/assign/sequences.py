@@ -54,7 +54,7 @@ def improve_sequences(
         np.zeros((n, n)),
         inner=inner[None, :],
         weights=weights,
-        due=np.full((), np.inf) if due is None else due,
+        due=np.full(n, np.inf) if due is None else due,
     )
     costs = native_costs(problem)
     return _core.ruin_recreate(costs, [list(route) for route in first], n, params, seed)

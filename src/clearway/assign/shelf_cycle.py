@@ -307,7 +307,7 @@ class ShelfCycle(ABC):
     def _fail(self, board: Board) -> Iterator[Choice]:
         """Yield trips of robots that are gone for what only they could do: those orders fail."""
         gone = sorted(self._gone)
-        carriers = {self.yard.carried(r): r for r in gone if self.yard.is_carrying(r)}
+        carriers = {shelf: r for r in gone if (shelf := self.yard.held_by(r)) is not None}
         is_over = len(gone) == len(board.robots)
         for id, order in list(board.open.items()):
             robot = carriers.get(order.task.fetches or "", gone[0] if is_over else None)

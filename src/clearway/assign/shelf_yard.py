@@ -70,9 +70,10 @@ class ShelfYard:
         """Return the shelf that a robot carries, or is under to lift it."""
         return self._carried[robot]
 
-    def is_carrying(self, robot: str) -> bool:
-        """Whether a robot has a shelf on board, or is bound to."""
-        return robot in self._carried
+    def held_by(self, robot: str) -> str | None:
+        """Return the shelf that a robot has on board, or is under."""
+        under = self._shelf_in.get(self._owned.get(robot, ""))
+        return self._carried.get(robot, under)
 
     def is_free(self, shelf: str) -> bool:
         """Whether a shelf is stored and no order has it; somebody may rest under it."""

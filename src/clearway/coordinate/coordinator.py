@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from clearway.model import TICKS_PER_SECOND, Commitment, Robot, Visit
+from clearway.model import TICKS_PER_SECOND, Commitment, Robot, Trip, Visit
 from clearway.protocols import (
     Board,
     Choice,
@@ -160,7 +160,7 @@ class Coordinator:
                 self._see(
                     robot,
                     trip=None,
-                    carries=_on_board(board.robots[robot].carries, served),
+                    carries=_after(trip, served, board.robots[robot].carries),
                     ready=seen.now,
                     idle_since=seen.now,
                 )
@@ -219,7 +219,7 @@ class Coordinator:
                 trip=None,
                 pose=trip.visits[-1].pose,
                 place=trip.goals[-1] if not trip.rests else commitment.rest,
-                carries=trip.carries or _on_board(board.robots[robot].carries, trip.visits),
+                carries=_after(trip, trip.visits, board.robots[robot].carries),
                 ready=seen.now,
                 idle_since=seen.now,
             )
@@ -241,8 +241,10 @@ class Coordinator:
         self._board.robots[robot] = replace(view, **change)  # type: ignore[arg-type]
 
 
-def _on_board(objects: tuple[str, ...], served: Iterable[Visit]) -> tuple[str, ...]:
-    """Return what is on board after some visits."""
+def _after(trip: Trip, served: Sequence[Visit], objects: tuple[str, ...]) -> tuple[str, ...]:
+    """Return what is on board after some visits of a trip, begun with ``objects``."""
+    if trip.carries and len(served) == len(trip.visits):
+        return trip.carries
     for visit in served:
         if visit.load == "pick":
             objects = (*objects, visit.task or "load")

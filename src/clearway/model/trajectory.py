@@ -145,4 +145,12 @@ class Trajectory:
             lasts = last - first
             pieces.append(piece.part((since - first) / lasts, (until - first) / lasts))
             timing.append((since, until))
-        return Trajectory(self.robot, self.at(begin), tuple(pieces), tuple(timing))
+        return Trajectory(self.robot, self._about_to(begin), tuple(pieces), tuple(timing))
+
+    def _about_to(self, tick: int) -> Pose:
+        """Return the pose right before a tick: headings may jump at it."""
+        index = bisect_left(self.timing, tick, key=lambda span: span[0]) - 1
+        if index < 0:
+            return self.start
+        piece, (first, end) = self.pieces[index], self.timing[index]
+        return piece.at(min(1.0, (tick - first) / (end - first)))

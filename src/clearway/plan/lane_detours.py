@@ -96,12 +96,15 @@ class LaneDetours:
             if stay.cell in self._closed and stay.arrive > self._now
         ]
         if self._standing:
-            clashes = self._holds.clashes(me, route)
             # Where it has been is over: what is kept of a past after delays is not exact.
+            at = max((k for k, stay in enumerate(route) if stay.arrive <= self._now), default=0)
+            here, ahead = route[at], route[at + 1 :]
+            since = max(here.arrive, min(here.depart, self._now))
+            here = _core.CellStay(here.cell, since, here.depart, here.turn_begin, here.turn_end)
             ends += [
-                clash.index
-                for clash in clashes
-                if clash.other in self._standing and route[clash.index].arrive > self._now
+                at + clash.index
+                for clash in self._holds.clashes(me, [here, *ahead])
+                if clash.other in self._standing and clash.index > 0
             ]
         return min(ends, default=None)
 
