@@ -226,5 +226,5 @@ def test_an_interrupt_after_the_run_keeps_its_whole_trace(clearway, tmp_path, mo
     )
     told = clearway("simulate", "shop.toml", "--out", "run", "--json")
     assert (told.code, told.json["error"]["code"]) == (130, 130)
-    assert "the whole trace is in run/trace.jsonl" in told.json["error"]["message"]
+    assert "the trace is in run/trace.jsonl" in told.json["error"]["message"]
     assert read_trace(tmp_path / "run" / "trace.jsonl").is_whole

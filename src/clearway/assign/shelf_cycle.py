@@ -299,7 +299,9 @@ class ShelfCycle(ABC):
                 choice = self._store(view, order, self.yard.carried(robot), best, False)
                 assert choice is not None
                 yield choice
-            elif barred:
+                if board.robots[robot].trip is choice.trip or order.task.id in board.open:
+                    continue
+            if barred:
                 self._lose(robot)
         if self._gone:
             yield from self._fail(board)
