@@ -13,7 +13,7 @@ from tests.cli.sites import HALL, altered
 
 from clearway.cli import main
 from clearway.formats.trace_file import without_timings
-from clearway.simulate import events
+from clearway.simulation import events
 
 FILES = {"metrics.json", "plan.json", "plan.png", "report.html", "scenario.toml", "trace.jsonl"}
 SOON = 30.0

@@ -20,7 +20,7 @@ from clearway.metrics.trace_metrics import trace_metrics, trace_to_json
 from clearway.metrics.trace_table import told
 from clearway.model import Scenario, Trace
 from clearway.protocols import Budget
-from clearway.simulate.events import Record
+from clearway.simulation.events import Record
 from clearway.systems.simulate import Simulated, simulate
 from clearway.validate.finding import Finding
 from clearway.validate.trace_judge import validate_trace

@@ -14,7 +14,7 @@ from clearway.execute import CellConflicts, RightOfWay
 from clearway.model import Scenario
 from clearway.plan import LaneTrips
 from clearway.protocols import Dispatcher, Executor
-from clearway.simulate.disturbed import PERIOD
+from clearway.simulation.disturbed import PERIOD
 from clearway.systems.settings import SettingsError
 from clearway.world.channels import RULES, lane_grid
 from clearway.world.dynamic_map import DynamicMap

@@ -10,7 +10,7 @@ from clearway.model import Problem, Scenario
 from clearway.plan import TailTrips
 from clearway.plan.prioritised import unplannable
 from clearway.protocols import Dispatcher, Executor
-from clearway.simulate.disturbed import PERIOD
+from clearway.simulation.disturbed import PERIOD
 from clearway.systems.hierarchical import HierarchicalSettings
 
 

@@ -8,12 +8,12 @@ from importlib.metadata import version
 from clearway.coordinate import Coordinator, CoordinatorParams, Lifelong, Unsupported
 from clearway.model import Scenario, Trace
 from clearway.protocols import Budget, TripPlanner
-from clearway.simulate.arrivals import Arrivals
-from clearway.simulate.disturbed import PERIOD, Disturbed
-from clearway.simulate.events import Event, Record
-from clearway.simulate.fleet import SimulatedFleet, Tell
-from clearway.simulate.motion import RobotMotion
-from clearway.simulate.on_time import OnTime
+from clearway.simulation.arrivals import Arrivals
+from clearway.simulation.disturbed import PERIOD, Disturbed
+from clearway.simulation.events import Event, Record
+from clearway.simulation.fleet import SimulatedFleet, Tell
+from clearway.simulation.motion import RobotMotion
+from clearway.simulation.on_time import OnTime
 from clearway.systems.choose import choose_lifelong
 from clearway.systems.solve import IllegalScenario
 from clearway.validate.finding import Finding

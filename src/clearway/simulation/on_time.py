@@ -3,8 +3,8 @@
 from collections.abc import Mapping, Sequence
 
 from clearway.model import Commitment, Robot, Trajectory, Trip
-from clearway.simulate.kernel import Kernel
-from clearway.simulate.motion import Occurrence
+from clearway.simulation.kernel import Kernel
+from clearway.simulation.motion import Occurrence
 
 
 class OnTime:

@@ -19,7 +19,7 @@ from clearway.model import (
     to_ticks,
 )
 from clearway.protocols import Executor
-from clearway.simulate.motion import Occurrence
+from clearway.simulation.motion import Occurrence
 
 PERIOD = TICKS_PER_SECOND // 10
 

@@ -26,7 +26,7 @@ from clearway.model import (
     Zone,
     to_ticks,
 )
-from clearway.simulate.arrivals import Arrivals
+from clearway.simulation.arrivals import Arrivals
 
 BOX = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 SHELVES = [Zone(f"g{i}", "shelf", BOX, Pose(float(i), 2.0, 0.0)) for i in range(1, 6)]

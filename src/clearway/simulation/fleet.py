@@ -14,11 +14,11 @@ from clearway.model import (
     to_ticks,
 )
 from clearway.protocols import Decision, Observation
-from clearway.simulate import events
-from clearway.simulate.arriving import Arriving
-from clearway.simulate.events import Record
-from clearway.simulate.kernel import Kernel
-from clearway.simulate.motion import Occurrence, RobotMotion
+from clearway.simulation import events
+from clearway.simulation.arriving import Arriving
+from clearway.simulation.events import Record
+from clearway.simulation.kernel import Kernel
+from clearway.simulation.motion import Occurrence, RobotMotion
 
 # Called now and then: second, orders done, orders open.
 Tell = Callable[[float, int, int], None]

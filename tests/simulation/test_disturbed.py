@@ -17,8 +17,8 @@ from clearway.model import (
     Wait,
 )
 from clearway.protocols import Binding, Precedence
-from clearway.simulate.disturbed import Disturbed
-from clearway.simulate.motion import Occurrence
+from clearway.simulation.disturbed import Disturbed
+from clearway.simulation.motion import Occurrence
 
 START = Pose(0.0, 0.0, 0.0)
 ROBOT = Robot("a", "cart", START)

@@ -5,12 +5,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from tests.simulate.lone_lanes import AlongLanes, Listed, lanes, oldest_first
+from tests.simulation.lone_lanes import AlongLanes, Listed, lanes, oldest_first
 
 from clearway.coordinate import Coordinator
 from clearway.model import Scenario
-from clearway.simulate.fleet import SimulatedFleet
-from clearway.simulate.on_time import OnTime
+from clearway.simulation.fleet import SimulatedFleet
+from clearway.simulation.on_time import OnTime
 
 
 def run(scenario: Scenario) -> tuple[str, list[dict[str, Any]], AlongLanes]:
