@@ -60,3 +60,10 @@ def test_a_trip_ends_when_its_order_fails_or_is_called_off() -> None:
     assert spans(decision(1.0), other, later) == [("order", "o1", 1.0, 6.0, False)]
     motion = {"event": "motion", "robot": "a", "t": [3.0, 8.0]}
     assert spans(decision(1.0), motion) == [("order", "o1", 1.0, 8.0, False)]
+
+
+def test_a_service_that_goes_on_belongs_to_the_trip_given_up() -> None:
+    """Sent elsewhere in the middle of a service, a robot has yet to make both visits."""
+    arrived = {"event": "visit", "t": 2.0, "robot": "a", "state": "arrived"}
+    told = spans(decision(1.0), arrived, decision(3.0, 2, "o2"), left(4.0), left(6.0), left(8.0))
+    assert told == [("order", "o1", 1.0, 3.0, False), ("order", "o2", 3.0, 8.0, True)]

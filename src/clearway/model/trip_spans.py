@@ -40,6 +40,8 @@ def trip_spans(trace: Trace) -> tuple[TripSpan, ...]:
     order has failed or is called off, with the robot's next trip, or with the trace.
     """
     running: dict[str, tuple[Mapping[str, Any], int]] = {}
+    at_visit: set[str] = set()
+    given_up: set[str] = set()  # at visits of trips that they are no longer on
     found: dict[str, list[TripSpan]] = {robot.id: [] for robot in trace.robots}
 
     def close(robot: str, end: float, is_complete: bool) -> None:
@@ -59,10 +61,19 @@ def trip_spans(trace: Trace) -> tuple[TripSpan, ...]:
         if kind == "decision" and robot and event.get("outcome", "committed") == "committed":
             if robot in running:
                 close(robot, t, False)
+            given_up |= at_visit & {robot}
             arrive = event.get("arrive")
             if arrive != []:  # else it has nothing to visit any more
                 running[robot] = event, len(arrive or (None,))
-        elif kind == "visit" and event["state"] == "left" and robot in running:
+        elif kind == "visit" and event["state"] == "arrived" and robot:
+            at_visit.add(robot)
+        elif kind == "visit" and robot in given_up:
+            given_up.discard(robot)
+            at_visit.discard(robot)
+        elif kind == "visit" and robot:
+            at_visit.discard(robot)
+            if robot not in running:
+                continue
             decision, missing = running[robot]
             running[robot] = decision, missing - 1
             if missing == 1:
