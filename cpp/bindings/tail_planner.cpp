@@ -62,9 +62,9 @@ void bind_tail_planner(nb::module_& m) {
       .def_ro("rest", &Tail::rest)
       .def_ro("expansions", &Tail::expansions)
       .def_ro("met", &Tail::met);
-  nb::class_<Meeting>(m, "Meeting", "Whom a robot meets, and where it is then.")
-      .def_ro("robot", &Meeting::robot)
-      .def_ro("at", &Meeting::at);
+  nb::class_<TailMeeting>(m, "TailMeeting", "Whom a robot meets, and where it is then.")
+      .def_ro("robot", &TailMeeting::robot)
+      .def_ro("at", &TailMeeting::at);
   nb::class_<TailPlanner>(m, "TailPlanner",
                           "Everybody's committed motion, of which tails are replaced one by one.")
       .def(nb::init<std::vector<Model>, std::vector<int>, const TailParams&>(), "models"_a,

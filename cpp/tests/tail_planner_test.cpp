@@ -87,7 +87,7 @@ TEST_CASE("a new tail replaces the old one at once") {
   CHECK(h.planner.settled(0) == tail.tour.arrival);
   // Going on from there, it now meets the other one at its new rest.
   const std::vector<TimedPiece> on{{0, 6000, kCentre, {6, 0, 0}, 0, 0}};
-  const std::vector<Meeting> met = h.planner.meetings(0, on, -30000);
+  const std::vector<TailMeeting> met = h.planner.meetings(0, on, -30000);
   REQUIRE(met.size() == 1);
   CHECK(met[0].robot == 1);
   CHECK(met[0].at.x == doctest::Approx(kEast.x - 1.0).epsilon(0.01));

@@ -1171,7 +1171,7 @@ class Tail:
     @property
     def met(self) -> list[int]: ...
 
-class Meeting:
+class TailMeeting:
     """Whom a robot meets, and where it is then."""
 
     @property
@@ -1193,7 +1193,7 @@ class TailPlanner:
     def alone(self, query: TailQuery) -> Tail:
         """The tail that it would have with nobody else on the site."""
 
-    def meetings(self, robot: int, pieces: Sequence[TimedPiece], earlier: int) -> list[Meeting]:
+    def meetings(self, robot: int, pieces: Sequence[TimedPiece], earlier: int) -> list[TailMeeting]:
         """
         Whom a robot would meet first if it drove pieces so many ticks earlier.
         """

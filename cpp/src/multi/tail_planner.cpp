@@ -162,13 +162,13 @@ Tail TailPlanner::alone(const TailQuery& query, Budget& budget) {
   return search(query, nullptr, budget);
 }
 
-std::vector<Meeting> TailPlanner::meetings(int robot, const std::vector<TimedPiece>& pieces,
-                                           Ticks earlier) const {
+std::vector<TailMeeting> TailPlanner::meetings(int robot, const std::vector<TimedPiece>& pieces,
+                                               Ticks earlier) const {
   std::vector<Rest> rests;
   if (!pieces.empty()) rests.push_back({Frame(pieces.front().start), pieces.front().body});
   rests.insert(rests.end(), rests_[static_cast<std::size_t>(robot)].begin(),
                rests_[static_cast<std::size_t>(robot)].end());
-  std::vector<Meeting> met;
+  std::vector<TailMeeting> met;
   for (const TimedPiece& p : pieces) {
     const double begin = p.begin - earlier;
     const Mover mover{&body(robot, p.body), Frame(p.start), p.twist, begin,

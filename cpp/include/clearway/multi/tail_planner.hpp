@@ -40,7 +40,7 @@ struct Tail {
 };
 
 // A robot's place in a meeting: who is met, and where the one who asks is then.
-struct Meeting {
+struct TailMeeting {
   int robot = 0;
   Pose at;
 };
@@ -66,8 +66,8 @@ class TailPlanner {
   Tail alone(const TailQuery& query, Budget& budget);
 
   // Whom a robot would meet first if it drove pieces so much earlier; empty if nobody.
-  std::vector<Meeting> meetings(int robot, const std::vector<TimedPiece>& pieces,
-                                Ticks earlier) const;
+  std::vector<TailMeeting> meetings(int robot, const std::vector<TimedPiece>& pieces,
+                                    Ticks earlier) const;
 
   // Last tick from `now` on up to which a robot's motion is known to be clear of what stands, given
   // for each of its bodies; kNever if it is for ever.
