@@ -12,6 +12,7 @@ from clearway.cli.progress import ProgressLine
 from clearway.protocols import Budget
 from clearway.study.conduct import Conducted, conduct, find_study
 from clearway.study.experiment import Scale
+from clearway.study.rows_file import rows_on_disk
 from clearway.study.tables import findings_table
 from clearway.study.workers import Workers, cluster, local
 
@@ -27,12 +28,13 @@ def run_study(arguments: argparse.Namespace) -> int:
     )
     out, workers = Path(arguments.out), _workers(arguments)
     notes: list[str] = []
-    there = [0, 0]
+    total = 0
     with ProgressLine(quiet=arguments.quiet) as line:
 
-        def progress(done: int, total: int) -> None:
-            there[:] = done, total
-            line.rows(done, total)
+        def progress(done: int, of: int) -> None:
+            nonlocal total
+            total = of
+            line.rows(done, of)
 
         def warn(text: str) -> None:
             notes.append(text)
@@ -43,7 +45,9 @@ def run_study(arguments: argparse.Namespace) -> int:
                 study, scale, out, workers, _command(arguments), progress=progress, warn=warn
             )
         except KeyboardInterrupt:
-            kept = f"{there[0]} of {there[1]} rows are in {out / 'rows.jsonl'}"
+            # The interrupt may have come between a row's being written and its being counted.
+            rows = out / "rows.jsonl"
+            kept = f"{rows_on_disk(rows)} of {total} rows are in {rows}"
             return interrupted(arguments, f"{kept}; run the same command again to go on")
     if arguments.json:
         print(json.dumps(_summary(study.name, done, notes), allow_nan=False))

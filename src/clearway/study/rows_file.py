@@ -15,6 +15,14 @@ from clearway.study.experiment import Row
 KEY = "cell"
 
 
+def rows_on_disk(path: Path) -> int:
+    """Return how many cells have a whole row in a file, which may lack its last line's end."""
+    if not path.exists():
+        return 0
+    _, *lines = path.read_bytes().split(b"\n")[:-1] or [b""]
+    return len({json.loads(line)[KEY] for line in lines})
+
+
 class RowsFile:
     """Holds the rows that are done, and takes new ones; a context that keeps others out.
 
